@@ -22,6 +22,7 @@ Command make_measure_command(CLI::App& program);
 Command make_search_command(CLI::App& program);
 Command make_map_command(CLI::App& program);
 Command make_stack_command(CLI::App& program);
+Command make_hold_command(CLI::App& program);
 Command make_gap_command(CLI::App& program);
 Command make_drop_command(CLI::App& program);
 Command make_items_command(CLI::App& program);

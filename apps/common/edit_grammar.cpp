@@ -219,7 +219,7 @@ bool reads_as_part(const std::string& name) {
 }
 
 /// Shortest number of degrees that is parsed as these radians, or the nearest one.
-std::string degrees_text(double radians) {
+std::string turn_text(double radians) {
   const double degrees = radians / radians_per_degree;
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     const double parsed = stackabilization::parse_number(significant_text(degrees, digits)).value();
@@ -260,7 +260,7 @@ std::string edit_text(const Edit& edit, const std::vector<std::string>& part_nam
   if (const auto* move = std::get_if<Move>(&edit.operation))
     return handle + " move " + vector_text(move->by) + how;
   if (const auto* rotate = std::get_if<Rotate>(&edit.operation))
-    return handle + " rotate " + degrees_text(rotate->radians) + " about " + vector_text(rotate->axis);
+    return handle + " rotate " + turn_text(rotate->radians) + " about " + vector_text(rotate->axis);
   if (const auto* taper = std::get_if<Taper>(&edit.operation))
     return handle + " taper " + exact_digits(taper->factor) + " towards " + vector_text(taper->axis) +
            (taper->along ? " along " + vector_text(*taper->along) : std::string());

@@ -63,12 +63,12 @@ Program::Program(Caller* caller)
       "Example:\n  stackabilize measure chair.obj --direction 0 0 1\n\n"
       "stackabilize COMMAND --help explains a command. Exit status: 0 done; 1 the answer is no;\n"
       "2 wrong usage; 3 unusable input.");
-  commands_ = {make_inspect_command(*app_),  make_measure_command(*app_),   make_search_command(*app_),
-               make_map_command(*app_),      make_stack_command(*app_),     make_gap_command(*app_),
-               make_drop_command(*app_),     make_items_command(*app_),     make_draft_command(*app_),
-               make_validate_command(*app_), make_structure_command(*app_), make_deform_command(*app_),
-               make_improve_command(*app_),  make_suggest_command(*app_),   make_compare_command(*app_),
-               make_edit_command(*app_)};
+  commands_ = {make_inspect_command(*app_), make_measure_command(*app_),  make_search_command(*app_),
+               make_map_command(*app_),     make_stack_command(*app_),    make_hold_command(*app_),
+               make_gap_command(*app_),     make_drop_command(*app_),     make_items_command(*app_),
+               make_draft_command(*app_),   make_validate_command(*app_), make_structure_command(*app_),
+               make_deform_command(*app_),  make_improve_command(*app_),  make_suggest_command(*app_),
+               make_compare_command(*app_), make_edit_command(*app_)};
   for (const Command& command : commands_) command.common->caller = caller;
 }
 

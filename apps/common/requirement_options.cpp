@@ -11,8 +11,21 @@ namespace {
 
 /// A larger limit of a measure of quality is a typing error: --relax NAME removes it.
 constexpr double max_quality_limit = 1000;
+/// More friction is a typing error.
+constexpr double max_friction = 100;
+
+/// Part of --rest-on and, behind the last sign, what is given as air.
+std::pair<std::string, std::optional<double>> resting_of(const std::string& text) {
+  const std::size_t sign = text.rfind('=');
+  if (sign == std::string::npos) return {text, std::nullopt};
+  return {text.substr(0, sign), parse_fraction("--rest-on", text.substr(sign + 1))};
+}
 
 }  // namespace
+
+Number friction_option(const std::string& description) {
+  return {.name = "--friction", .description = description, .min = 0, .max = max_friction};
+}
 
 Number target_option(const std::string& description) {
   // Copies without any height of their own have S = 1; below the other end nobody wishes for anything.
@@ -64,6 +77,15 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
       command,
       {"--tilt-degrees", "... also on ground that is tilted by this angle (default: 0)", 0, max_degrees},
       arguments.tipping_degrees);
+  add_number(command,
+             friction_option("Coefficient of friction between copies, with which they do not jam, nor slide "
+                             "in the stack of --standing"),
+             arguments.friction);
+  command
+      .add_option("--rest-on", arguments.resting,
+                  "Copies rest on this part of the one below, and keep FRACTION of the height away from its "
+                  "other parts (default: 0.2%)")
+      ->type_name("PART[=FRACTION]");
   add_relax_option(command, arguments.relaxed);
   command.add_flag("--any-quality", arguments.any_quality,
                    "Do not look at the quality of designs, as the paper (default with --preset paper, and in "
@@ -130,6 +152,12 @@ Requirements requirements_of(const RequirementArguments& arguments, const Shape&
   requirements.min_draft_degrees = arguments.draft_degrees;
   requirements.standing_copies = arguments.standing;
   requirements.min_tipping_degrees = arguments.tipping_degrees.value_or(0);
+  requirements.friction = arguments.friction;
+  if (arguments.resting) {
+    const auto [part, air] = resting_of(*arguments.resting);
+    requirements.resting_part = parts_named("--rest-on", {part}, rest).front();
+    requirements.min_air_elsewhere = air.value_or(requirements.min_air_elsewhere);
+  }
   if (!arguments.any_quality && (quality == QualityDefault::limited || !arguments.relaxed.empty()))
     requirements.quality = quality_limits_of(arguments.relaxed);
   return requirements;

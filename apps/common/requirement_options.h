@@ -17,17 +17,21 @@ struct RequirementArguments {
   std::optional<Length> thickness, clearance, lateral_clearance;
   std::optional<double> draft_degrees, tipping_degrees;
   std::optional<int> standing;
-  std::vector<std::string> relaxed;  ///< NAME or NAME=VALUE
+  std::optional<double> friction;
+  std::optional<std::string> resting;  ///< PART or PART=FRACTION
+  std::vector<std::string> relaxed;    ///< NAME or NAME=VALUE
   bool any_quality = false;
 };
 
 /// Limits of quality with those that were relaxed. Throws UsageError for a name or a value that is none.
 QualityLimits quality_limits_of(const std::vector<std::string>& relaxed);
+/// The coefficient of friction between copies, as `--friction`.
+Number friction_option(const std::string& description);
 /// --relax.
 void add_relax_option(CLI::App& command, std::vector<std::string>& relaxed);
 
 /// --keep, --only, --change-height, --box-tolerance, --thickness, --clearance, --lateral-clearance,
-/// --draft-degrees, --standing, --tilt-degrees, --relax, --any-quality.
+/// --draft-degrees, --standing, --tilt-degrees, --friction, --rest-on, --relax, --any-quality.
 void add_requirement_options(CLI::App& command, RequirementArguments& arguments);
 
 /// A wish in place of a stackability: so many copies are to fit into a length along the direction.

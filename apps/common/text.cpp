@@ -50,6 +50,10 @@ std::string small_percent(double fraction) {
   return (value < 100 ? significant_text(value, 2) : fixed_text(value, 0)) + " %";
 }
 
+std::string degrees_text(double degrees) {
+  return rounded(degrees) + (degrees == 1 ? " degree" : " degrees");
+}
+
 std::string vector_text(const Eigen::Vector3d& vector) {
   return exact_digits(vector.x()) + " " + exact_digits(vector.y()) + " " + exact_digits(vector.z());
 }

@@ -22,6 +22,8 @@ std::string quantity(double value, Unit unit, int power = 1);
 std::string percent(double fraction);
 /// "0.012 %", two significant digits: for errors.
 std::string small_percent(double fraction);
+/// "1 degree", "2.5 degrees"
+std::string degrees_text(double degrees);
 /// "0 0 1", all digits.
 std::string vector_text(const Eigen::Vector3d& vector);
 /// "(0.1, 0.2, 0.3)", rounded.

@@ -199,6 +199,8 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
           {"before", stackability_json(solution.before)},
           {"after", stackability_json(after)},
           {"stack", stack_json(solution)},
+          {"holding",
+           solution.holding ? to_json(*solution.holding, task.rest().shape.part_names) : Json(nullptr)},
           {"requirements", requirements_json(solution.assessment, task.rest().structure)},
           {"relations", residuals_json(task.rest().structure, solution.residuals)},
           {"checks", checks_json(solution)},

@@ -92,6 +92,8 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
   text += element("p class=\"headline\"",
                   headline_text(solution.before, solution.assessment.measured, solution.stack, unit)) +
           "\n";
+  if (solution.holding)
+    text += element("p", holding_text(*solution.holding, report.task.rest().shape.part_names)) + "\n";
   if (report.pictures_missing.empty()) {
     text += picture(solution.name + "_before_after.png", "before and after");
     text += picture(solution.name + "_stack.png", "stacks before and after");

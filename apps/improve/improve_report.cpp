@@ -39,6 +39,10 @@ void add_requirement_lines(std::vector<std::string>& lines, const ImproveReport&
   if (asked.standing_copies)
     lines.push_back("a stack of " + std::to_string(*asked.standing_copies) +
                     " stands, on ground tilted by up to " + rounded(asked.min_tipping_degrees) + " degrees");
+  if (asked.friction) lines.push_back("copies do not jam with friction " + rounded(*asked.friction));
+  if (asked.resting_part)
+    lines.push_back("copies rest on " + part_list({*asked.resting_part}, rest) + ", and keep " +
+                    percent(asked.min_air_elsewhere) + " of the height away from other parts");
 }
 
 void add_solution_rows(ColumnTable& table, const SolutionReport& solution) {
@@ -181,7 +185,10 @@ std::string improvement_text(const ImproveReport& report) {
             saving_text(report.solutions.front().stack, task.rest().shape.unit) + "." +
             lean_text(report.solutions.front().assessment.measured, report.solutions.front().stack.copies,
                       task.rest().shape.unit) +
-            "\n";
+            "\n" +
+            (report.solutions.front().holding
+                 ? holding_text(*report.solutions.front().holding, task.rest().shape.part_names) + "\n"
+                 : "");
   else if (report.solutions.empty())
     text += "Not reached.\n";
   if (const Diagnosis* const diagnosis = report.diagnosis())

@@ -26,6 +26,15 @@ TwistResult twisted(const ImproveTask& task, const SolutionReport& report) {
   return best_twist(report.candidate.design.shape, report.direction(), search);
 }
 
+Holding holding(const ImproveTask& task, const SolutionReport& report) {
+  const Requirements& asked = task.checker().requirements();
+  HoldingOptions options;
+  options.copies = std::max(2, report.stack.copies);
+  options.friction = asked.friction.value_or(default_friction);
+  options.semantics = asked.measure.semantics;
+  return holding_of(report.candidate.design.shape, report.direction(), options);
+}
+
 }  // namespace
 
 bool SolutionReport::confirmed() const {
@@ -52,6 +61,7 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
   report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
   report.stack = stack_heights(options, task, report);
   if (options.twist) report.twist = twisted(task, report);
+  if (assessment.separation.blocked) report.holding = holding(task, report);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/holding.h"
 #include "apps/improve/improve_run.h"
 #include "apps/report/design_words.h"
 #include "stackabilization/improvement/confirmation.h"
@@ -24,7 +25,9 @@ struct SolutionReport {
   Explanation explanation;
   std::vector<double> residuals;  ///< per relation, fraction of the diagonal
   StackHeights stack;
-  std::optional<TwistResult> twist;   ///< with --twist
+  std::optional<TwistResult> twist;  ///< with --twist
+  /// How a stack of the shown copies holds; nothing where copies pass each other.
+  std::optional<Holding> holding;
   std::vector<Confirmation> written;  ///< what the mesh says as written
 
   Direction direction() const { return Direction(candidate.direction); }

@@ -87,10 +87,6 @@ std::string share_text(double area, const DraftSummary& of, Unit unit) {
   return quantity(area, unit, 2) + (of.area > 0 ? ", " + percent(area / of.area) : "");
 }
 
-std::string degrees_text(double degrees) {
-  return rounded(degrees) + (degrees == 1 ? " degree" : " degrees");
-}
-
 std::string min_draft_text(const DraftSummary& summary) {
   return summary.min_draft ? degrees_text(*summary.min_draft) : "none";
 }

@@ -78,6 +78,7 @@ const std::vector<CommandLine>& command_lines() {
       {"search", {}},
       {"map", {"--step-degrees", "10", "-o", "FOLDER/map.csv"}},
       {"stack", {"--direction", "0", "0", "1", "-n", "10"}},
+      {"hold", {"--direction", "0", "0", "1", "-n", "10"}},
       {"gap", {"FOLDER/model.obj", "--direction", "0", "0", "1"}},
       {"drop", {"--onto", "FOLDER/model.obj", "--direction", "0", "0", "1"}},
       {"items", {"--unit", "cm"}},

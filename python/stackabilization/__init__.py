@@ -20,23 +20,23 @@ The same input gives the same numbers, whatever the number of threads.
 import atexit as _atexit
 
 from . import _core
-from ._commands import (compare, deform, draft, drop, gap, inspect, items, map, measure, search, separation, stack,
+from ._commands import (compare, deform, draft, drop, gap, hold, inspect, items, map, measure, search, separation, stack,
                         structure, suggest, validate)
 from ._core import Error, InputError, Mesh, OutputError, RenderError, UsageError
 from ._core import version as __version__
 from ._improvement import Design, Improvement, improve, improvement
 from ._mesh import load
-from ._results import (Comparison, Contact, Deformation, Draft, Drop, Findings, Gap, Gradient, Gradients, Inspection, Items,
-                       LoadItem, Map, Measurement, Nest, Result, Search, Separation, Stack, Structure, Suggestion, Suggestions, Touch,
+from ._results import (Comparison, Contact, Deformation, Draft, Drop, Findings, Gap, Gradient, Gradients, Holding,
+                       Inspection, Items, LoadItem, Map, Measurement, Nest, Result, Search, Separation, Stack, Structure, Suggestion, Suggestions, Touch,
                        Validation, Witness)
 from ._solver import Measurements, Solver
 
 _atexit.register(_core.end_of_interpreter)
 
 __all__ = [
-    "Comparison", "Contact", "Deformation", "Design", "Draft", "Drop", "Error", "Findings", "Gap", "Gradient", "Gradients", "Improvement", "InputError",
+    "Comparison", "Contact", "Deformation", "Design", "Draft", "Drop", "Error", "Findings", "Gap", "Gradient", "Gradients", "Holding", "Improvement", "InputError",
     "Inspection", "Items", "LoadItem", "Map", "Measurement", "Measurements", "Mesh", "Nest", "OutputError", "RenderError", "Result",
     "Search", "Separation", "Solver", "Stack", "Structure", "Suggestion", "Suggestions", "Touch", "UsageError",
-    "Validation", "Witness", "compare", "deform", "draft", "drop", "gap", "improve", "improvement", "inspect", "items", "load", "map", "measure", "search",
+    "Validation", "Witness", "compare", "deform", "draft", "drop", "gap", "hold", "improve", "improvement", "inspect", "items", "load", "map", "measure", "search",
     "separation", "stack", "structure", "suggest", "validate",
 ]

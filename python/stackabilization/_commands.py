@@ -213,6 +213,20 @@ def items(mesh, *more, direction=None, clearance=None, lateral_clearance=None, s
     return _results.Items(answer.document, answer.texts["table"])
 
 
+def hold(mesh, *, n=None, direction=None, semantics=None, friction=None, side_gap=None, format=None, unit=None, up=None,
+         labels=None, threads=None):
+    """Say how a stack of copies holds: whether it stands, slides, centres itself or jams; a Holding.
+
+    n: number of copies (default: 2). direction: of the stack (default: 0, 0, 1). semantics: as in `measure`.
+    friction: coefficient between copies (default: 0.3). side_gap: walls that are closer than this across the direction
+    are tight, model units or a text such as '2mm' (default: a thousandth of the diagonal). format, unit, up, labels: how
+    a file is read, see `load`. threads: at most so many (default: all).
+    """
+    options = {"n": n, "direction": direction, "semantics": semantics, "friction": friction, "side_gap": side_gap,
+               "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
+    return _results.Holding(run_command("hold", mesh, options).document)
+
+
 def draft(mesh, *, direction=None, draft_degrees=None, format=None, unit=None, up=None, labels=None, threads=None):
     """Say what of a mesh is undercut, so that neither half of a mould can leave it, and how much draft the rest has; a Draft.
 
@@ -297,7 +311,8 @@ def deform(mesh, *, edit, model=None, follow=None, direction=None, keep_extent=N
 
 def suggest(mesh, *, direction=None, semantics=None, boxes=None, model=None, edits=None, bend=False, alpha=None,
             target=None, keep=None, only=None, change_height=False, box_tolerance=None, thickness=None, clearance=None,
-            lateral_clearance=None, draft_degrees=None, standing=None, tilt_degrees=None, relax=None,
+            lateral_clearance=None, draft_degrees=None, standing=None, tilt_degrees=None, friction=None, rest_on=None,
+            relax=None,
             any_quality=False, top=None, all=False, apply=None, roll_back=None, segmentation=None, segments=None,
             seeds=None, primitive=None, sections=None, symmetry_tolerance=None, joint_reach=None, ctrl=None, grp=None,
             format=None, unit=None, up=None, labels=None, threads=None, progress=None):
@@ -315,7 +330,8 @@ def suggest(mesh, *, direction=None, semantics=None, boxes=None, model=None, edi
                "bend": bend, "alpha": alpha, "target": target, "keep": keep, "only": only,
                "change_height": change_height, "box_tolerance": box_tolerance, "thickness": thickness,
                "clearance": clearance, "lateral_clearance": lateral_clearance, "draft_degrees": draft_degrees,
-               "standing": standing, "tilt_degrees": tilt_degrees, "relax": relax, "any_quality": any_quality,
+               "standing": standing, "tilt_degrees": tilt_degrees, "friction": friction, "rest_on": rest_on,
+               "relax": relax, "any_quality": any_quality,
                "top": top, "all": all, "apply": apply, "roll_back": roll_back, "segmentation": segmentation,
                "segments": segments, "seeds": seeds, "primitive": primitive, "sections": sections,
                "symmetry_tolerance": symmetry_tolerance, "joint_reach": joint_reach, "ctrl": ctrl, "grp": grp,

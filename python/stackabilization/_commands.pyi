@@ -4,7 +4,7 @@ from typing import Any, Literal, NamedTuple, overload
 from . import _results
 from ._core import Mesh
 from ._results import (
-    Comparison, Deformation, Draft, Drop, Gap, Inspection, Items, Map, Measurement, Nest, Search, Separation, Stack,
+    Comparison, Deformation, Draft, Drop, Gap, Holding, Inspection, Items, Map, Measurement, Nest, Search, Separation, Stack,
     Structure, Suggestions, Validation,
 )
 from ._types import (
@@ -79,6 +79,12 @@ def items(
     labels: Path | None = None, threads: int | None = None,
 ) -> Items: ...
 
+def hold(
+    mesh: MeshLike, *, n: int | None = None, direction: Vector | None = None, semantics: Semantics | None = None,
+    friction: float | None = None, side_gap: Length | None = None, format: str | None = None, unit: Unit | None = None,
+    up: Up | None = None, labels: Path | None = None, threads: int | None = None,
+) -> Holding: ...
+
 def draft(
     mesh: MeshLike, *, direction: Vector | None = None, draft_degrees: float | None = None, format: str | None = None,
     unit: Unit | None = None, up: Up | None = None, labels: Path | None = None, threads: int | None = None,
@@ -129,7 +135,8 @@ def suggest(
     target: float | None = None, keep: Names | None = None, only: Names | None = None, change_height: bool = False,
     box_tolerance: float | str | None = None, thickness: Length | None = None, clearance: Length | None = None,
     lateral_clearance: Length | None = None, draft_degrees: float | None = None, standing: int | None = None,
-    tilt_degrees: float | None = None, relax: Relaxed | None = None, any_quality: bool = False,
+    tilt_degrees: float | None = None, friction: float | None = None, rest_on: str | None = None,
+    relax: Relaxed | None = None, any_quality: bool = False,
     top: int | None = None, all: bool = False, apply: int | None = None, roll_back: int | None = None,
     segmentation: Segmentation | None = None, segments: int | None = None, seeds: Path | None = None,
     primitive: Primitives | None = None, sections: int | None = None, symmetry_tolerance: float | None = None,

@@ -31,6 +31,8 @@ class Design(_results.Structured):
                                         convert=_results.copied)
     stack: dict = _results.field("Copies on top of each other: height_before, height, saving.",
                                  convert=_results.copied)
+    holding: "dict | None" = _results.field("How that stack holds, as a Holding; None where copies pass each other.",
+                                            convert=_results.copied)
     good: bool = _results.field("Are target and requirements met, and does the mesh confirm it?")
 
     @property
@@ -77,8 +79,8 @@ def improve(mesh, *, target=None, copies=None, within=None, solutions=None, fron
             semantics=None, boxes=None, model=None, preset=None, least=None, effort=None, time=None, expansions=None,
             alpha=None, bend=False, cone_degrees=None, keep=None, only=None, change_height=False, box_tolerance=None,
             thickness=None, clearance=None, lateral_clearance=None, draft_degrees=None, standing=None,
-            tilt_degrees=None, relax=None, any_quality=False, remove=None, twist=False, segmentation=None,
-            segments=None, seeds=None, primitive=None, sections=None, symmetry_tolerance=None, joint_reach=None,
+            tilt_degrees=None, friction=None, rest_on=None, relax=None, any_quality=False, remove=None, twist=False,
+            segmentation=None, segments=None, seeds=None, primitive=None, sections=None, symmetry_tolerance=None, joint_reach=None,
             ctrl=None, grp=None, format=None, unit=None, up=None, labels=None, threads=None, progress=None):
     """Change a design as little as possible so that it stacks as asked for.
 
@@ -93,8 +95,10 @@ def improve(mesh, *, target=None, copies=None, within=None, solutions=None, fron
     may be edited; change_height: the height may change; box_tolerance: the sides of the box may, by this
     fraction; thickness: of walls that must remain; clearance, lateral_clearance: air between copies along
     and across the direction (model units or texts such as '2mm'); draft_degrees: of walls where copies touch;
-    standing: so many copies stand; tilt_degrees: on a floor tilted so far; relax: limits of quality, names
-    or a dict from name to value; any_quality: no such limits; remove: parts to leave out first.
+    standing: so many copies stand; tilt_degrees: on a floor tilted so far; friction: between copies, which
+    then neither jam nor slide; rest_on: the part of the copy below on which copies rest, or 'PART=FRACTION';
+    relax: limits of quality, names or a dict from name to value; any_quality: no such limits; remove: parts
+    to leave out first.
     effort: how much work (1 takes up to about 40 seconds on two cores); time: seconds; expansions: of
     candidates. preset: 'refined' (default) or 'paper'; least: 'both' (default), 'distortion' or
     'displacement'; alpha, bend, cone_degrees, twist, semantics, boxes, model: see the manual of the program.
@@ -106,7 +110,8 @@ def improve(mesh, *, target=None, copies=None, within=None, solutions=None, fron
                "cone_degrees": cone_degrees, "keep": keep, "only": only, "change_height": change_height,
                "box_tolerance": box_tolerance, "thickness": thickness, "clearance": clearance,
                "lateral_clearance": lateral_clearance, "draft_degrees": draft_degrees, "standing": standing,
-               "tilt_degrees": tilt_degrees, "relax": relax, "any_quality": any_quality, "remove": remove,
+               "tilt_degrees": tilt_degrees, "friction": friction, "rest_on": rest_on, "relax": relax,
+               "any_quality": any_quality, "remove": remove,
                "twist": twist, "segmentation": segmentation, "segments": segments, "seeds": seeds,
                "primitive": primitive, "sections": sections, "symmetry_tolerance": symmetry_tolerance,
                "joint_reach": joint_reach, "ctrl": ctrl, "grp": grp, "format": format, "unit": unit, "up": up,

@@ -23,6 +23,7 @@ class Design(Structured):
     change: dict[str, Any]
     requirements: list[dict[str, Any]]
     stack: dict[str, Any]
+    holding: dict[str, Any] | None
     good: bool
     @property
     def vertices(self) -> Floats: ...
@@ -49,7 +50,8 @@ def improve(
     cone_degrees: float | None = None, keep: Names | None = None, only: Names | None = None,
     change_height: bool = False, box_tolerance: float | str | None = None, thickness: Length | None = None,
     clearance: Length | None = None, lateral_clearance: Length | None = None, draft_degrees: float | None = None,
-    standing: int | None = None, tilt_degrees: float | None = None, relax: Relaxed | None = None,
+    standing: int | None = None, tilt_degrees: float | None = None, friction: float | None = None,
+    rest_on: str | None = None, relax: Relaxed | None = None,
     any_quality: bool = False, remove: Names | None = None, twist: bool = False,
     segmentation: Segmentation | None = None, segments: int | None = None, seeds: Path | None = None,
     primitive: Primitives | None = None, sections: int | None = None, symmetry_tolerance: float | None = None,
@@ -68,7 +70,8 @@ def improvement(
     cone_degrees: float | None = None, keep: Names | None = None, only: Names | None = None,
     change_height: bool = False, box_tolerance: float | str | None = None, thickness: Length | None = None,
     clearance: Length | None = None, lateral_clearance: Length | None = None, draft_degrees: float | None = None,
-    standing: int | None = None, tilt_degrees: float | None = None, relax: Relaxed | None = None,
+    standing: int | None = None, tilt_degrees: float | None = None, friction: float | None = None,
+    rest_on: str | None = None, relax: Relaxed | None = None,
     any_quality: bool = False, remove: Names | None = None, twist: bool = False,
     segmentation: Segmentation | None = None, segments: int | None = None, seeds: Path | None = None,
     primitive: Primitives | None = None, sections: int | None = None, symmetry_tolerance: float | None = None,

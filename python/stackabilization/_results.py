@@ -499,6 +499,33 @@ class Gap(OfModel):
                                        convert=Gradients)
 
 
+class Holding(OfModel):
+    """How a stack of n copies holds, on ground that does not let it slide."""
+
+    __slots__ = ()
+    _shown = ("stands", "tipping_degrees", "jams")
+    direction: Floats = field("(3,) as given.", convert=vector)
+    semantics: str = field("'solid' or 'closed'.")
+    contacts: tuple[Contact, ...] = field("Where a copy rests on the one below.", convert=_contacts)
+    n: int = field("Number of copies.")
+    friction: float = field("Coefficient between copies.")
+    stands: bool = field("Does the stack stay on level ground?")
+    tipping_degrees: float = field("Smallest tilt of the ground at which it topples or slides; negative: the tilt that "
+                                   "is lacking.")
+    weakest_copy: int = field("The copy that goes first with those above it; 0: the whole stack.")
+    needed_friction: float | None = field("With less, copies slide on level ground; None: they topple all the same.")
+    lean_degrees: float = field("Between the direction and up.")
+    drift: float = field("How far the last copy stands beside the first, model units.")
+    centring_slope: float = field("A copy beside its place slides back where friction is below; negative: it slides off.")
+    draft_degrees: float = field("Least angle between the direction and surfaces that touch.")
+    jams: bool = field("By contacts or by tight walls.")
+    pull_off: float = field("Force that pulls a copy off, over that which pressed it on; 0: it does not jam.")
+    walls_pull_off: float = field("The same, pressed against tight walls; 0: they add nothing.")
+    tight_walls: list[Document] = field("Parts, least gap and draft, and area of walls that are close to each other.",
+                                        convert=copied)
+    centre_of_mass: Floats = field("(3,) of one copy, model units.", convert=vector)
+
+
 class Draft(OfModel):
     """Undercuts and draft of a mesh of m triangles. Areas are of the surface, in model units squared."""
 

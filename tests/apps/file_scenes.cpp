@@ -42,6 +42,7 @@ const std::vector<Output>& outputs() {
       {"stack", "--json", ".json"},
       {"stack", "--output", ".3mf"},
       {"stack", "--picture", ".png"},
+      {"hold", "--json", ".json"},
       {"gap", "--json", ".json", {"after.obj"}},
       {"items", "--json", ".json", {"--unit", "m"}},
       {"items", "--output", ".csv", {"--unit", "m"}},

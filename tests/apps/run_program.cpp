@@ -34,9 +34,9 @@ Arguments joined(Arguments a, const Arguments& b) {
 }
 
 const std::vector<std::string>& command_names() {
-  static const std::vector<std::string> names = {"inspect",   "measure", "search",  "map",    "stack",
-                                                 "gap",       "drop",    "items",   "draft",  "validate",
-                                                 "structure", "deform",  "suggest", "improve"};
+  static const std::vector<std::string> names = {"inspect",  "measure",   "search", "map",     "stack",
+                                                 "hold",     "gap",       "drop",   "items",   "draft",
+                                                 "validate", "structure", "deform", "suggest", "improve"};
   return names;
 }
 

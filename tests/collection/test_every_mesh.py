@@ -29,6 +29,7 @@ COMMANDS = [
     ["search", "--cone-degrees", "10", "--certify", "0.05", "--max-cells", "100"],
     ["map", "--step-degrees", "30", "-o", "OUT.csv"],
     ["stack", "-n", "3", "-o", "OUT.obj"],
+    ["hold", "-n", "3"],
     ["gap", "MODEL", "--direction", "0.3", "-0.2", "1"],
     ["drop", "--onto", "MODEL", "--place", "best", "--max-cells", "300", "-o", "OUT.stl"],
     ["items", "--step", "0.01", "-o", "OUT.csv"],

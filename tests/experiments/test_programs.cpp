@@ -269,7 +269,7 @@ TEST_CASE("the costs of every command are listed for every model") {
   CHECK(outcome.status == 0);
   for (const std::string model : {"cubes,10,120,", "rack,10,120,", "coincident cubes,10,120,", "cup,1,968,"})
     for (const std::string command :
-         {"inspect", "measure", "search", "map", "stack", "gap", "drop", "items", "draft", "validate",
+         {"inspect", "measure", "search", "map", "stack", "hold", "gap", "drop", "items", "draft", "validate",
           "structure", "deform", "suggest", "improve", "compare"}) {
       INFO(model + command);
       CHECK(outcome.out.find("\n" + model + command + ",") != std::string::npos);

@@ -34,6 +34,7 @@ COMMANDS = {
     "search": ["search", "--cone-degrees", "20"],
     "map": ["map", "--step-degrees", "30", "-o", "OUT.csv"],
     "stack": ["stack", "-n", "3", "-o", "OUT.obj"],
+    "hold": ["hold", "-n", "5"],
     "validate": ["validate"],
     "gap": ["gap", "MODEL", "--direction", "0.1", "0", "1"],
     "draft": ["draft"],

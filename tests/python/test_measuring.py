@@ -2,6 +2,7 @@
 
 import copy
 import fractions
+import math
 import pickle
 
 import numpy
@@ -159,3 +160,16 @@ def test_what_lies_between_others_is_undercut():
     assert st.draft(seat_over_bar, draft_degrees=0).little_draft_area == 0
     with pytest.raises(st.UsageError, match="draft"):
         st.draft(seat_over_bar, draft_degrees=91)
+
+
+def test_a_stack_of_blocks_on_a_slope_needs_its_friction():
+    corners, faces = box((0, 0, 0), (4, 3, 1))
+    corners = corners.astype(float)
+    corners[:, 2] += corners[:, 0] / 4
+    held = st.hold((corners, faces), n=3, friction=0.5)
+    assert held.needed_friction == pytest.approx(0.25, rel=1e-5) and held.n == 3 and not held.jams
+    assert held.centring_slope == pytest.approx(-0.25) and len(held.contacts) == 1 and held.tight_walls == []
+    level = st.hold(box((0, 0, 0), (2, 2, 2)), friction=2)
+    assert level.stands and level.tipping_degrees == pytest.approx(math.degrees(math.atan(0.5)))
+    with pytest.raises(st.UsageError, match="friction"):
+        st.hold((corners, faces), friction=-1)

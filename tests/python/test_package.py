@@ -56,7 +56,7 @@ def test_help_explains_every_keyword(command):
         missing -= shared
     if "keep to any_quality: as in `improve`" in doc:
         missing -= {"only", "change_height", "box_tolerance", "thickness", "clearance", "lateral_clearance",
-                    "draft_degrees", "standing", "tilt_degrees", "relax"}
+                    "draft_degrees", "standing", "tilt_degrees", "friction", "rest_on", "relax"}
     assert not missing
 
 

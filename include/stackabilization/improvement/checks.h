@@ -23,6 +23,8 @@ enum class CheckKind {
   thickness,    ///< least thickness, model units
   draft,        ///< least draft angle, degrees
   standing,     ///< tilt at which the stack topples, degrees
+  jam,          ///< force that pulls a copy off, fraction of that with which it was pressed on
+  resting,      ///< distance along r to parts on which copies are not to rest, fraction of the extent
   quality,      ///< a measure of quality, in its unit
 };
 
@@ -33,8 +35,9 @@ struct Check {
   double demanded = 0;                 ///< required value, or the tolerance of the comparison
   bool passed = false;                 ///< whether `value` satisfies `demanded`
   /// Where `value` was found: relations: row of the relation; proportions, parts and thickness: the part;
-  /// box: the axis, 0 to 2; standing: the copy that topples first, from 0. -1 where nothing changed, nothing
-  /// has a thickness, or copies pass each other.
+  /// box: the axis, 0 to 2; standing: the copy that topples first, from 0; jam: the part of the copy below;
+  /// resting: the part that is not to be touched. -1 where nothing changed, nothing has a thickness, nothing
+  /// jams, or copies pass each other.
   int where = -1;
   int copies = 0;                                              ///< standing: number of copies in the stack
   QualityMeasure measure = QualityMeasure::self_intersection;  ///< quality: what was measured
@@ -52,7 +55,7 @@ struct Check {
 std::string name_of(const Check& check);
 
 /// Returns the unit of Check::value: "", "model units", "degrees", "of the diagonal", "of the height", "of
-/// the size at rest" or "of a side"; for quality that of the measure.
+/// the size at rest", "of a side" or "of the force"; for quality that of the measure.
 std::string unit_of(const Check& check);
 
 /// Returns how far a check is violated, on a scale that all kinds share: > 0 if it fails, <= 0 if not.

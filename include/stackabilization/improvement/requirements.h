@@ -41,6 +41,13 @@ struct Requirements {
   std::optional<double> min_draft_degrees;
   std::optional<int> standing_copies;  ///< number of copies whose stack must stand
   double min_tipping_degrees = 0;      ///< least tilt at which that stack topples, degrees, in [0, 90]
+  /// Coefficient of friction between copies, finite, >= 0: they do not jam (see Seating), and a stack that
+  /// stands does not slide.
+  std::optional<double> friction;
+  std::optional<int> resting_part;  ///< part of the copy below on which alone copies rest
+  /// Least distance along r that copies keep to other parts of the copy below, beyond the clearance, fraction
+  /// of the extent, in (0, 1); with a resting part.
+  double min_air_elsewhere = 0.002;
   /// Limits of what a person looks at, with z upwards. Not looked at if empty.
   std::optional<QualityLimits> quality;
 };
@@ -117,7 +124,7 @@ class RequirementChecker {
   ///   moved;
   /// * thickness: every probe is at least as thick as required or, where the shape at rest is thinner, as at
   ///   rest;
-  /// * draft: at the contacts of the copies without clearance and play;
+  /// * draft, standing, jam and resting: for copies without clearance and play;
   /// * quality: one check per measure that has a limit, and is in the scope.
   Assessment check(const Design& design, const Direction& direction,
                    QualityScope scope = QualityScope::all) const;

@@ -19,10 +19,6 @@ inline constexpr double target = 1e-7;
 /// Relative accuracy at which magnitudes of edits, and the distortion that they cause, count as converged.
 inline constexpr double magnitude = 1e-6;
 
-/// Angle between a stacking direction and up, the z axis, to which an object still stands in its stack,
-/// radians: 30 degrees.
-inline constexpr double max_stack_lean = std::numbers::pi / 6;
-
 /// Length of the moves across the direction after which two pieces still overlap where they keep copies apart
 /// for good (closed_pair), fraction of the diagonal.
 inline constexpr double closed_move = 0.12;

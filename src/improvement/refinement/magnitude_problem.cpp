@@ -34,7 +34,8 @@ constexpr double passing_surplus = 0.02;
 /// itself.
 bool is_open(const Check& check) {
   return check.kind == CheckKind::thickness || check.kind == CheckKind::draft ||
-         check.kind == CheckKind::standing || check.kind == CheckKind::quality;
+         check.kind == CheckKind::standing || check.kind == CheckKind::jam ||
+         check.kind == CheckKind::resting || check.kind == CheckKind::quality;
 }
 
 /// Returns the signed changes whose absolute values add up to D.
@@ -67,7 +68,8 @@ MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vecto
       meter_(checker.rest_shape().energy_meter()),
       blocks_(checker.space().rest().shape, direction, checker.requirements().measure.semantics) {
   const Requirements& asked = checker.requirements();
-  checks_ = asked.min_thickness || asked.min_draft_degrees || asked.standing_copies || asked.quality;
+  checks_ = asked.min_thickness || asked.min_draft_degrees || asked.standing_copies || asked.friction ||
+            asked.resting_part || asked.quality;
 }
 
 double MagnitudeProblem::target_offset(const Stackability& measured) const {

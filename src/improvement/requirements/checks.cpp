@@ -19,7 +19,7 @@ struct CheckWords {
 };
 
 /// In the order of CheckKind.
-constexpr std::array<CheckWords, 11> check_words = {{{"target", ""},
+constexpr std::array<CheckWords, 13> check_words = {{{"target", ""},
                                                      {"room", "model units"},
                                                      {"height", "of the height"},
                                                      {"relations", "of the diagonal"},
@@ -29,6 +29,8 @@ constexpr std::array<CheckWords, 11> check_words = {{{"target", ""},
                                                      {"thickness", "model units"},
                                                      {"draft", "degrees"},
                                                      {"standing", "degrees"},
+                                                     {"jam", "of the force"},
+                                                     {"resting", "of the height"},
                                                      {"quality", ""}}};
 
 /// Violation of a measure of quality at twice its limit. S, which other violations are compared with, changes
@@ -37,6 +39,12 @@ constexpr double quality_scale = 0.1;
 
 const CheckWords& words_for(CheckKind kind) {
   return check_words.at(static_cast<std::size_t>(kind));
+}
+
+/// Returns whether a check demands that its value is at most so large.
+bool is_upper_limit(CheckKind kind) {
+  return kind == CheckKind::room || kind == CheckKind::height || kind == CheckKind::relations ||
+         kind == CheckKind::box || kind == CheckKind::parts || kind == CheckKind::jam;
 }
 
 std::string quoted(const Structure& structure, int part) {
@@ -69,16 +77,18 @@ double violation(const Check& check) {
     limits[check.measure] = check.demanded;
     return quality_scale * (share_of_limit({check.measure, check.value}, limits) - 1);
   }
-  const double lack = check.demanded - check.value;
+  const double lack =
+      is_upper_limit(check.kind) ? check.value - check.demanded : check.demanded - check.value;
   if (!std::isfinite(lack)) return check.passed ? -1 : 1;
   return check.demanded > 0 ? lack / check.demanded : lack;
 }
 
 std::string note_of(const Check& check, const Structure& rest) {
   if (check.where < 0)
-    return check.kind == CheckKind::thickness  ? "nothing has a thickness"
-           : check.kind == CheckKind::standing ? "copies pass each other along the direction"
-                                               : "";
+    return check.kind == CheckKind::thickness ? "nothing has a thickness"
+           : check.kind == CheckKind::standing || check.kind == CheckKind::resting
+               ? "copies pass each other along the direction"
+               : "";
   if (check.kind == CheckKind::thickness && check.passed) {
     const bool thinner = check.value < check.demanded - tolerance::relative * rest.diagonal;
     return thinner ? "nowhere thinner than at rest" : "";
@@ -90,7 +100,7 @@ std::string note_of(const Check& check, const Structure& rest) {
       return std::string("along ") + std::string_view("xyz").at(at(check.where));
     case CheckKind::standing:
       return "copy " + std::to_string(check.where + 1) + " of " + std::to_string(check.copies) +
-             " topples first";
+             " goes first";
     default:
       return quoted(rest, check.where) + (check.other < 0 ? "" : " and " + quoted(rest, check.other));
   }

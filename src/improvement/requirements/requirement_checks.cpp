@@ -7,13 +7,14 @@
 #include <set>
 #include <utility>
 
-#include "core/angles.h"
+#include "core/extract_parts.h"
 #include "improvement/requirements/draft.h"
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/improvement/tolerances.h"
+#include "stackabilization/stacking/seating.h"
 #include "stackabilization/stacking/static_stability.h"
 
 namespace stackabilization::detail {
@@ -36,14 +37,6 @@ double primitive_displacement(const Primitive& rest, const Primitive& now) {
     farthest = std::max(farthest,
                         (std::get<GeneralizedCylinder>(now).radii - cylinder->radii).cwiseAbs().maxCoeff());
   return farthest;
-}
-
-/// Returns up, the z axis, where the object stands in a stack along a direction; nothing where it lies, and
-/// the direction is up.
-std::optional<Eigen::Vector3d> upright(const Direction& direction) {
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  if (angle_between(direction.vector(), up) > tolerance::max_stack_lean) return std::nullopt;
-  return up;
 }
 
 }  // namespace
@@ -81,13 +74,16 @@ std::vector<Check> RequirementChecks::of_one_copy(const Design& design, const Di
 }
 
 bool RequirementChecks::need_contacts() const {
-  return requirements_.min_draft_degrees || requirements_.standing_copies;
+  return requirements_.min_draft_degrees || requirements_.standing_copies || requirements_.friction ||
+         requirements_.resting_part;
 }
 
 std::vector<Check> RequirementChecks::of_contacts(const StackedDesign& stacked) const {
   std::vector<Check> checks;
   if (requirements_.min_draft_degrees) checks.push_back(draft(stacked));
   if (requirements_.standing_copies) checks.push_back(standing(stacked));
+  if (requirements_.friction) checks.push_back(jam(stacked));
+  if (requirements_.resting_part) checks.push_back(resting(stacked));
   return checks;
 }
 
@@ -221,13 +217,50 @@ Check RequirementChecks::standing(const StackedDesign& stacked) const {
   StaticStabilityOptions options;
   options.copies = *requirements_.standing_copies;
   options.semantics = requirements_.measure.semantics;
-  options.up = upright(stacked.direction);
+  options.up = up_of_stack(stacked.direction);
+  options.friction = requirements_.friction;
   const StaticStability stack =
       stackabilization::static_stability(stacked.design.shape, stacked.direction, options);
   check.value = stack.tipping_degrees;
   check.passed = stack.stands && stack.tipping_degrees >= check.demanded * (1 - tolerance::relative);
   check.where = stack.weakest_copy;
   check.copies = options.copies;
+  return check;
+}
+
+Check RequirementChecks::jam(const StackedDesign& stacked) const {
+  Check check{CheckKind::jam, 0, 0, true};
+  if (!stacked.separation.blocked) return check;
+  SeatingOptions options;
+  options.friction = *requirements_.friction;
+  options.semantics = requirements_.measure.semantics;
+  options.up = up_of_stack(stacked.direction);
+  const Seating seat = seating(stacked.design.shape, stacked.direction, options);
+  check.value = std::max(seat.pull_off, seat.walls_pull_off);
+  check.passed = !seat.jams();
+  if (seat.jams()) check.where = seat.pull_off > 0 ? seat.upper_part : seat.tight.front().upper_part;
+  return check;
+}
+
+/// Compares f_max with the separation from every other part of the copy below.
+Check RequirementChecks::resting(const StackedDesign& stacked) const {
+  Check check{CheckKind::resting, 0, requirements_.min_air_elsewhere};
+  if (!stacked.separation.blocked) return check;
+  const Shape& shape = stacked.design.shape;
+  const double extent = range_along(shape, stacked.direction.unit()).length();
+  check.value = 1;
+  const std::vector<Shape> parts = extract_parts(shape);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (static_cast<int>(part) == *requirements_.resting_part || parts[part].triangle_count() == 0) continue;
+    const Separation other = separation(SeparationTree(parts[part]), stacked.tree, stacked.direction,
+                                        {requirements_.measure.semantics, std::nullopt});
+    if (!other.blocked) continue;
+    const double air = (stacked.separation.length - other.length) / extent;
+    if (air >= check.value) continue;
+    check.value = air;
+    check.where = static_cast<int>(part);
+  }
+  check.passed = check.value >= check.demanded * (1 - tolerance::relative);
   return check;
 }
 

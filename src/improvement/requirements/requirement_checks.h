@@ -52,6 +52,8 @@ class RequirementChecks {
   Check thickness(const Shape& shape) const;
   Check draft(const StackedDesign& stacked) const;
   Check standing(const StackedDesign& stacked) const;
+  Check jam(const StackedDesign& stacked) const;
+  Check resting(const StackedDesign& stacked) const;
   double displacement(const StayingPart& staying, const Design& design) const;
 
   const DeformationModel& space_;

@@ -91,6 +91,11 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
   require_at_least_zero(requirements.min_thickness.value_or(0), "thickness");
   require_angle(requirements.min_draft_degrees.value_or(0), "draft angle");
   require_angle(requirements.min_tipping_degrees, "tilt");
+  require_at_least_zero(requirements.friction.value_or(0), "friction");
+  if (requirements.resting_part) require_parts({*requirements.resting_part}, rest.structure);
+  if (!(requirements.min_air_elsewhere > 0 && requirements.min_air_elsewhere < 1))
+    throw UsageError(
+        "the air beside the part on which copies rest must be a fraction of the height between 0 and 1");
   if (requirements.quality) validate(*requirements.quality);
   if (requirements.standing_copies.value_or(1) < 1)
     throw UsageError("a stack that stands needs at least one copy");

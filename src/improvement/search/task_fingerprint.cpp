@@ -76,6 +76,9 @@ void add(Fingerprint& print, const Requirements& requirements) {
   add_optional(print, requirements.min_draft_degrees);
   add_integer(print, requirements.standing_copies.value_or(0));
   print.add(requirements.min_tipping_degrees);
+  add_optional(print, requirements.friction);
+  add_integer(print, requirements.resting_part.value_or(-1));
+  print.add(requirements.min_air_elsewhere);
 }
 
 void add(Fingerprint& print, const ContactEditOptions& options) {

@@ -52,11 +52,11 @@ bool SolidSides::both(const Eigen::Vector3d& point, const Eigen::Vector3d& norma
   const Box near({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()});
   auto met = boxes_.qbegin(boost::geometry::index::intersects(near));
   if (met == boxes_.qend() || ++met == boxes_.qend()) return false;
-  for (const double side : {reach_, -reach_}) {
-    const Eigen::Vector3d p = point + side * normal;
-    if (locator_->locate({p.x(), p.y(), p.z()}).place == PointPlace::outside) return false;
-  }
-  return true;
+  return contains(point + reach_ * normal) && contains(point - reach_ * normal);
+}
+
+bool SolidSides::contains(const Eigen::Vector3d& point) const {
+  return locator_ && locator_->locate({point.x(), point.y(), point.z()}).place != PointPlace::outside;
 }
 
 }  // namespace stackabilization::detail

@@ -22,6 +22,8 @@ class SolidSides {
   /// Returns whether solid lies on both sides of a piece: at its centre and halfway to its corners. `normal`
   /// is a unit vector. Exact for these points.
   bool both(const Piece& piece, const Eigen::Vector3d& normal) const;
+  /// Returns whether a point lies in the solid or on its surface. Exact.
+  bool contains(const Eigen::Vector3d& point) const;
 
  private:
   using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;

@@ -20,6 +20,22 @@ std::string note(CheckKind kind, int where, bool passed = false) {
   return note_of({kind, 1, 2, passed, where, 5}, two_parts());
 }
 
+TEST_CASE("violations are positive where a check fails, whichever side its limit is on") {
+  using enum CheckKind;
+  for (const CheckKind kind : {target, proportions, thickness, draft, standing, resting}) {
+    INFO(name_of(Check{kind}));
+    CHECK(violation({kind, 1, 2, false}) == Approx(0.5));
+    CHECK(violation({kind, 3, 2, true}) == Approx(-0.5));
+  }
+  for (const CheckKind kind : {room, height, relations, box, parts, jam}) {
+    INFO(name_of(Check{kind}));
+    CHECK(violation({kind, 3, 2, false}) == Approx(0.5));
+    CHECK(violation({kind, 1, 2, true}) == Approx(-0.5));
+  }
+  CHECK(violation({jam, 0.25, 0, false}) == Approx(0.25));
+  CHECK(violation({jam, 0, 0, true}) == 0);
+}
+
 TEST_CASE("every requirement has its name, its unit and a note") {
   struct Words {
     CheckKind kind;
@@ -35,7 +51,9 @@ TEST_CASE("every requirement has its name, its unit and a note") {
                                   {parts, "parts", "of the diagonal", "'seat'"},
                                   {thickness, "thickness", "model units", "'seat'"},
                                   {draft, "draft", "degrees", ""},
-                                  {standing, "standing", "degrees", "copy 2 of 5 topples first"},
+                                  {standing, "standing", "degrees", "copy 2 of 5 goes first"},
+                                  {jam, "jam", "of the force", "'seat'"},
+                                  {resting, "resting", "of the height", "'seat'"},
                                   {quality, "quality: self-intersection", "pairs of triangles", "'seat'"}};
   REQUIRE(all.size() == static_cast<std::size_t>(quality) + 1);
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -303,6 +303,58 @@ TEST_CASE("A stack stands up to the tilt at which it topples", "[requirements]")
   CHECK(check_of(space, requirements, space.at_rest(), CheckKind::standing).passed);
 }
 
+TEST_CASE("A stack that stands neither topples nor slides, where there is friction", "[requirements]") {
+  const Still space(structures::box_alone({2, 2, 4}));
+  Requirements requirements = frame_requirements();
+  requirements.standing_copies = 2;
+  requirements.friction = 0.1;
+  const double slides = std::atan(0.1) * 180 / std::numbers::pi;
+  const Check standing = check_of(space, requirements, space.at_rest(), CheckKind::standing);
+  CHECK(standing.value == Approx(slides).epsilon(0.01));
+  CHECK(standing.where == 1);
+  requirements.min_tipping_degrees = 1.01 * slides;
+  CHECK_FALSE(check_of(space, requirements, space.at_rest(), CheckKind::standing).passed);
+}
+
+TEST_CASE("Copies of a cup jam where friction is more than its draft", "[requirements]") {
+  const Still space(cup());
+  const double tangent = std::cos(std::numbers::pi / 64) / 8;
+  Requirements requirements = frame_requirements();
+  requirements.friction = 0.99 * tangent;
+  CHECK(check_of(space, requirements, space.at_rest(), CheckKind::jam).passed);
+  requirements.friction = 3 * tangent;
+  const Check jams = check_of(space, requirements, space.at_rest(), CheckKind::jam);
+  CHECK_FALSE(jams.passed);
+  CHECK(jams.value == Approx(0.5));  // (3 - 1) / (3 + 1)
+  CHECK(jams.where == 0);
+  // Level tops do not jam.
+  const Still boxes(two_cubes());
+  CHECK(check_of(boxes, requirements, boxes.at_rest(), CheckKind::jam).passed);
+}
+
+TEST_CASE("Copies rest on one part and keep away from the others", "[requirements]") {
+  const Still space(two_cubes());
+  const auto resting = [&](int part, double higher, double air) {
+    Requirements requirements = frame_requirements();
+    requirements.keep_height = false;
+    requirements.resting_part = part;
+    requirements.min_air_elsewhere = air;
+    Design design = space.at_rest();
+    for (Eigen::Index v = 0; v < 8; ++v)  // the left cube
+      if (design.shape.vertices(v, 2) == 1) design.shape.vertices(v, 2) += higher;
+    return check_of(space, requirements, design, CheckKind::resting);
+  };
+  // Of two cubes side by side the left one is higher, by a fifth of the height.
+  CHECK(resting(0, 0.25, 0.1).passed);
+  CHECK(resting(0, 0.25, 0.1).value == Approx(0.2));
+  CHECK(resting(0, 0.25, 0.1).where == 1);
+  CHECK(resting(0, 0.25, 0.2).passed);
+  CHECK_FALSE(resting(0, 0.25, 0.21).passed);
+  CHECK_FALSE(resting(1, 0.25, 0.1).passed);
+  CHECK(resting(1, 0.25, 0.1).value == 0);
+  CHECK_FALSE(resting(0, 0, 0.001).passed);  // on both
+}
+
 TEST_CASE("The obstacle is the first check that failed, but for the target", "[requirements]") {
   const Still space(structures::box_alone({2, 2, 4}));
   Requirements requirements = frame_requirements(0.99);

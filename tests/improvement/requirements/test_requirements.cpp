@@ -114,6 +114,7 @@ TEST_CASE("Requirements that make no sense are refused", "[requirements]") {
   for (const int part : {-1, 2}) {
     refused([&](Requirements& r) { r.kept_parts = {part}; });
     refused([&](Requirements& r) { r.editable_parts = {0, part}; });
+    refused([&](Requirements& r) { r.resting_part = part; });
   }
   for (const double bad : {-0.1, nan, infinity}) {
     refused([&](Requirements& r) { r.measure.clearance = bad; });
@@ -121,12 +122,14 @@ TEST_CASE("Requirements that make no sense are refused", "[requirements]") {
     refused([&](Requirements& r) { r.box_tolerance = bad; });
     refused([&](Requirements& r) { r.min_thickness = bad; });
     refused([&](Requirements& r) { r.min_draft_degrees = bad; });
+    refused([&](Requirements& r) { r.friction = bad; });
     refused([&](Requirements& r) {
       r.standing_copies = 2;
       r.min_tipping_degrees = bad;
     });
   }
   for (const double bad : {-0.1, 1.1, nan}) refused([&](Requirements& r) { r.min_size_ratio = bad; });
+  for (const double bad : {0.0, 1.0, nan}) refused([&](Requirements& r) { r.min_air_elsewhere = bad; });
   refused([](Requirements& r) { r.measure.clearance = 1e8; });
   refused([](Requirements& r) { r.measure.play = 1e8; });
   for (const double bad : {0.0, -1.0, nan, infinity})

@@ -5,6 +5,7 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/static_stability.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/solids.h"
@@ -63,6 +64,49 @@ TEST_CASE("cubes along a leaning direction drift until they topple, with gravity
   options.up = Eigen::Vector3d(0, 0, 1);
   CHECK_THROWS_AS(static_stability(cube, Direction(1, 0, 0), options), UsageError);
   CHECK_THROWS_AS(static_stability(cube, Direction(0, 0, -1), options), UsageError);
+}
+
+TEST_CASE("with friction cubes slide before they topple") {
+  const Shape cube = solids::box(Eigen::Vector3d(2, 2, 2));
+  for (const int n : {2, 3, 10})
+    for (const double friction : {0.0, 0.05, 0.25, 3.0}) {
+      StaticStabilityOptions options = standing_copies(n);
+      options.friction = friction;
+      const StaticStability result = static_stability(cube, upwards, options);
+      INFO(n << " copies, friction " << friction);
+      // The ground does not let them slide. The cones of friction are pyramids of 32 sides.
+      const double topples = std::atan(1.0 / n), slides = std::atan(friction),
+                   slides_sooner = std::atan(friction * std::cos(std::numbers::pi / 32));
+      CHECK(result.tipping_degrees <= degrees(std::min(topples, slides)) + 1e-6);
+      CHECK(result.tipping_degrees >=
+            degrees(std::min(topples, slides_sooner)) * (1 - tolerance::tilt) - 1e-6);
+      CHECK(result.stands == (friction > 0));
+      CHECK(needed_friction(cube, upwards, options) == 0);
+      CHECK((result.weakest_copy > 0) == (slides < topples));
+    }
+  StaticStabilityOptions options;
+  for (const double bad : {-1.0, std::nan("")}) {
+    options.friction = bad;
+    CHECK_THROWS_AS(static_stability(cube, upwards, options), UsageError);
+    CHECK_THROWS_AS(needed_friction(cube, upwards, options), UsageError);
+  }
+}
+
+TEST_CASE("copies on a slope need its tangent as friction, and more than any where they topple") {
+  StaticStabilityOptions options;
+  options.friction = 0.3;
+  for (const double slope : {0.1, 0.25, 0.6}) {
+    const Shape block = solids::extruded_profile({{0, 0}, {2, 2 * slope}, {2, 2 * slope + 1}, {0, 1}}, 3);
+    for (const int n : {2, 3}) {
+      options.copies = n;
+      INFO(slope << ", " << n << " copies");
+      CHECK(needed_friction(block, upwards, options) == Approx(slope).epsilon(2e-6));
+    }
+  }
+  options.copies = 2;
+  const StaticStability toppling = static_stability(gallows(), upwards, options);
+  CHECK(needed_friction(gallows(), upwards, options) == std::numeric_limits<double>::infinity());
+  CHECK_FALSE(toppling.stands);
 }
 
 TEST_CASE("a blade topples over its ends, whatever rounding makes of its edge") {

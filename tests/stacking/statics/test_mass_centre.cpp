@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "stackabilization/core/errors.h"
-#include "stacking/stacks/mass_centre.h"
+#include "stacking/statics/mass_centre.h"
 #include "support/catch.h"
 #include "support/messages.h"
 #include "support/solids.h"

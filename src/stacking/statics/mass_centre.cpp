@@ -1,4 +1,4 @@
-#include "stacking/stacks/mass_centre.h"
+#include "stacking/statics/mass_centre.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
