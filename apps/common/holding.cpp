@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/stackability.h"
 
 namespace stackabilization::apps {
@@ -117,7 +118,9 @@ Holding holding_of(const Shape& shape, const Direction& direction, const Holding
   StackabilityOptions measure;
   measure.semantics = options.semantics;
   measure.flat_shapes = FlatShapes::measure;
-  holding.drift = stack.up ? stackability(shape, direction, measure).stack_drift(options.copies) : 0;
+  const Stackability measured = stackability(shape, direction, measure);
+  const bool in_place = measured.f_max < tolerance::relative * measured.extent;
+  holding.drift = stack.up && !in_place ? measured.stack_drift(options.copies) : 0;
   return holding;
 }
 
@@ -169,7 +172,7 @@ std::string holding_text(const Holding& holding, const std::vector<std::string>&
       "With friction " + rounded(holding.options.friction) + " a stack of " +
       std::to_string(holding.options.copies) +
       (stack.stands ? " stands on ground tilted by up to " + degrees_text(stack.tipping_degrees)
-                    : " does not stand by itself");
+                    : " does not stand: " + copy_text(holding) + " topples or slides");
   text += seat.centring_slope > seen    ? "; copies centre themselves"
           : seat.centring_slope < -seen ? "; copies tend to slide off their place"
                                         : "";

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +29,22 @@ inline std::vector<Shape> chair_parts() {
 }
 inline Shape chair() {
   return joined(chair_parts());
+}
+
+/// A round seat, the part "seat", on legs "leg_0", ... that are skewed: each leans along the rim. Mapped to
+/// itself by the turn by 2 pi / legs about z, and by no reflection.
+inline Shape skewed_stool(int legs) {
+  std::vector<Shape> parts = {
+      named(transformed(cylinder(2, 0.3, 48), Eigen::Matrix3d::Identity(), {0, 0, 4}), "seat")};
+  for (int k = 0; k < legs; ++k) {
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(2 * std::numbers::pi * k / legs, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()))
+            .toRotationMatrix();
+    parts.push_back(named(transformed(box({1.2, -0.15, 0}, {1.4, 0.15, 4.2}), turn, Eigen::Vector3d::Zero()),
+                          "leg_" + std::to_string(k)));
+  }
+  return joined(parts);
 }
 
 /// Half a ring in the plane y = 0 on the side +x: parts body and handle.

@@ -56,6 +56,10 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///   is not 45 degrees. It rotates such a plane so that the plane generates a finite group with the others.
 ///   Of a revolution, it takes two perpendicular planes through the axis. Of four planes at 45 degrees it
 ///   takes the two others where these make equal all that the first two do, and more.
+/// * It takes a rotation whose axis lies in none of these planes where the rotation moves parts in cycles
+/// that
+///   no plane makes equal (three skewed legs). A relation leads from each part of a cycle to the next, but
+///   for the last.
 /// * A part has a counterpart, or is its own counterpart, when the image of the part matches within the
 ///   tolerance. The match compares the distance of the centroids and the root mean square distance of the
 ///   surfaces in both directions, as fractions of the whole shape, and the sizes of the parts (root mean
@@ -70,7 +74,7 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 /// * Any other part of a shape without a reflection gets its own reflections in planes through its centre and
 ///   along its box.
 ///
-/// `symmetries`: model units, any order; a user may have edited them. Rotations are ignored. Residuals are
+/// `symmetries`: model units, any order; a user may have edited them. Residuals are
 /// root mean square distances of the surfaces. Throws as `find_symmetries` does.
 std::vector<Relation> symmetry_relations(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
                                          const SymmetryOptions& options = {});

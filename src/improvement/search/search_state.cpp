@@ -21,7 +21,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr std::string_view format_name = "stackabilization search";
-constexpr int format_version = 5;
+constexpr int format_version = 6;
 constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max();
 
 const std::vector<std::string> state_names = {"queued", "expanded", "solution", "repeated"};

@@ -96,6 +96,8 @@ std::vector<TightWalls> TightWallSearch::run(std::vector<detail::ContactHold>& h
     if (!is_steep(normal)) continue;
     const Eigen::Vector3d across = (normal - normal.dot(axis_) * axis_).normalized();
     for (const double side : {1.0, -1.0}) {
+      // A copy that can be lifted has no wall above the one below.
+      if (-side * normal.dot(axis_) < -tolerance::wall_slope) continue;
       const Eigen::Vector3d outwards = side * across, start = point + lift_ - reach * outwards;
       const auto hit = tree_.first_hit(start, outwards);
       if (!hit) continue;

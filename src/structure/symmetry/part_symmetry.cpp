@@ -32,8 +32,10 @@ class PartSymmetry {
   PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
                const SymmetryOptions& options)
       : options_(options), parts_(shape, options), relations_of_(static_cast<std::size_t>(parts_.count())) {
-    for (const FoundSymmetry& found : symmetries)
+    for (const FoundSymmetry& found : symmetries) {
       if (found.symmetry.kind == SymmetryKind::reflection) candidates_.push_back(found.symmetry);
+      if (found.symmetry.kind == SymmetryKind::rotation) rotations_.push_back(found.symmetry);
+    }
     for (const FoundSymmetry& found : symmetries)
       if (found.symmetry.kind == SymmetryKind::revolution)
         for (const Symmetry& plane : detail::planes_through(found.symmetry)) candidates_.push_back(plane);
@@ -45,6 +47,7 @@ class PartSymmetry {
     turn_by_half_a_right_angle(under);
     for (const std::vector<Relation>& of_plane : under) append(of_plane);
     add_oblique_planes();
+    for (const Symmetry& rotation : rotations_) add_cycles(rotation);
     std::vector<std::vector<Relation>> own(static_cast<std::size_t>(parts_.count()));
     tbb::parallel_for(0, parts_.count(),
                       [&](int part) { own[static_cast<std::size_t>(part)] = own_relations(part); });
@@ -170,6 +173,43 @@ class PartSymmetry {
     }
   }
 
+  /// Relates the parts that a rotation of the whole moves in cycles: three skewed legs, the blades of a fan.
+  /// A relation leads from each part of a cycle to the next, but for the last. Where a selected plane
+  /// contains the axis, planes relate the parts: a square may become a rectangle.
+  void add_cycles(const Symmetry& rotation) {
+    if (std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
+          return std::abs(plane.axis.dot(rotation.axis)) < detail::nearly_across;
+        }))
+      return;
+    std::vector<std::pair<int, double>> images(static_cast<std::size_t>(parts_.count()));
+    tbb::parallel_for(0, parts_.count(), [&](int part) {
+      images[static_cast<std::size_t>(part)] = counterpart(part, rotation);
+    });
+    DisjointSets orbits(static_cast<std::size_t>(parts_.count()));
+    for (const Relation& relation : relations_) join(orbits, relation);
+    std::vector<Relation> relations;
+    for (int first = 0; first < parts_.count(); ++first) {
+      std::vector<Relation> cycle;
+      int part = first;
+      do {
+        const auto [next, residual] = images[static_cast<std::size_t>(part)];
+        if (next < 0 || static_cast<int>(cycle.size()) == rotation.order) break;
+        cycle.push_back(related({part, next}, rotation, residual));
+        part = next;
+      } while (part != first);
+      if (part != first || cycle.size() < 2 || rotation.order % static_cast<int>(cycle.size()) != 0) continue;
+      cycle.pop_back();
+      if (std::none_of(cycle.begin(), cycle.end(), [&](const Relation& relation) {
+            return orbits.root(static_cast<std::size_t>(relation.parts[0])) !=
+                   orbits.root(static_cast<std::size_t>(relation.parts[1]));
+          }))
+        continue;
+      for (const Relation& relation : cycle) join(orbits, relation);
+      relations.insert(relations.end(), cycle.begin(), cycle.end());
+    }
+    append(relations);
+  }
+
   /// Returns whether the cosine of the angle to a selected plane is between `least` and `most`.
   bool meets_any_at(double least, double most, const Symmetry& candidate) const {
     return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
@@ -258,7 +298,7 @@ class PartSymmetry {
 
   SymmetryOptions options_;
   PartSurfaces parts_;
-  std::vector<Symmetry> candidates_, planes_;  ///< model units
+  std::vector<Symmetry> candidates_, rotations_, planes_;  ///< model units
   std::vector<Relation> relations_;
   std::vector<std::vector<std::size_t>> relations_of_;  ///< rows per part, ascending
 };

@@ -16,6 +16,7 @@
 #include "support/differences.h"
 #include "support/handles.h"
 #include "support/structures.h"
+#include "support/symmetric_solids.h"
 
 using namespace stackabilization;
 using structures::cuboid;
@@ -320,6 +321,21 @@ TEST_CASE("legs lean on their ground although their feet are no images of each o
     CHECK(std::abs(moves(0, 1)) == Approx(0.7).margin(1e-3));
     CHECK(moves.row(23).norm() < 0.05);
   }
+}
+
+TEST_CASE("skewed legs that a rotation maps to each other move alike") {
+  const Shape stool = solids::skewed_stool(3);
+  const ControllerModel model(analyse_structure(stool));
+  const DeformationResult result =
+      model.deformed({{{HandleKind::part, 1, 0}, Scale{1.1, Eigen::Vector3d::UnitX()}}}, {});
+  REQUIRE_FALSE(result.refusal);
+  CHECK(largest_residual(model, result.design.primitives) <= 1e-6);
+  CHECK((result.design.shape.vertices - stool.vertices).rowwise().norm().maxCoeff() > 0.005);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2 * std::numbers::pi / 3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto corners = [&](int leg) { return extract_part(result.design.shape, leg + 1).vertices; };
+  for (int leg = 0; leg < 3; ++leg)
+    CHECK((corners(leg) * turn.transpose() - corners((leg + 1) % 3)).rowwise().norm().maxCoeff() <= 0.01);
 }
 
 TEST_CASE("rungs go up their legs, the seat stays as thick as it is") {

@@ -114,6 +114,17 @@ TEST_CASE("a tight wall on one side does not jam") {
   CHECK_FALSE(seat.jams());
 }
 
+TEST_CASE("sheets that lie in each other resist a pull at most as much as the push") {
+  const Shape bowl = solids::bumpy_bowl(24);
+  for (const Direction& direction : {Direction(0, 0, 1), Direction(0.3, -0.2, 1)}) {
+    const Seating seat = seating(bowl, direction, with_friction(0.5));
+    CHECK(seat.pull_off >= 0);
+    CHECK(seat.pull_off <= 1);
+    CHECK(seat.walls_pull_off <= 1);
+    for (const TightWalls& wall : seat.tight) CHECK(wall.gap <= 1e-9);
+  }
+}
+
 TEST_CASE("seating refuses what has none") {
   const Shape cube = solids::box(Eigen::Vector3d(1, 1, 1));
   for (const double bad : {-0.1, std::numeric_limits<double>::infinity(), std::nan("")})

@@ -266,6 +266,35 @@ TEST_CASE("the legs of a polygon hang together") {
   }
 }
 
+TEST_CASE("parts that only a rotation makes equal are a chain of pairs") {
+  for (const int legs : {3, 4, 5}) {
+    CAPTURE(legs);
+    const Shape stool = solids::skewed_stool(legs);
+    const auto relations = relations_of(stool);
+    CHECK(pairs_of(stool, relations).size() == static_cast<std::size_t>(legs) - 1);
+    for (const Relation& relation : relations) {
+      if (relation.type != RelationType::symmetry) continue;
+      CHECK(relation.symmetry.kind == SymmetryKind::rotation);
+      CHECK(relation.symmetry.order == legs);
+      const Shape first = extract_part(stool, relation.parts[0]),
+                  second = extract_part(stool, relation.parts[1]);
+      const Eigen::Isometry3d map = isometry_of(relation.symmetry);
+      for (Eigen::Index v = 0; v < first.vertex_count(); ++v) {
+        const Eigen::Vector3d image = map * first.vertices.row(v).transpose();
+        CHECK((second.vertices.rowwise() - image.transpose()).rowwise().norm().minCoeff() <= 0.02);
+      }
+    }
+    for (int k = 0; k < legs; ++k) CHECK(own_of(stool, relations, "leg_" + std::to_string(k)).empty());
+  }
+}
+
+TEST_CASE("a rotation relates nothing where a leg is missing or elsewhere") {
+  const Shape stool = solids::skewed_stool(4);
+  const Shape without = solids::joined(
+      {extract_part(stool, 0), extract_part(stool, 1), extract_part(stool, 2), extract_part(stool, 3)});
+  for (const Relation& relation : relations_of(without)) CHECK(relation.symmetry.order != 4);
+}
+
 TEST_CASE("a part has planes of its own where the whole shape has none") {
   using solids::box;
   using solids::named;
