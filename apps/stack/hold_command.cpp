@@ -8,7 +8,6 @@
 #include "apps/common/requirement_options.h"
 #include "apps/common/values.h"
 #include "stackabilization/envelope/contacts.h"
-#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::apps {
 

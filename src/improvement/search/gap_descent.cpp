@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "improvement/contacts/design_contacts.h"
 #include "improvement/contacts/gap_excess.h"
+#include "improvement/search/follower_slide.h"
 #include "stackabilization/improvement/energy.h"
 
 namespace stackabilization {
@@ -57,12 +59,22 @@ class Pursuit {
   struct State {
     Candidate candidate;
     detail::SummedExcess excess;
+    bool slid = false;  ///< whether another part slides out of the way of the last edit
   };
 
   /// Returns the excess that is made small.
   double excess(const State& state) const {
     return options_.measure == GapMeasure::equal ? state.excess.equal : state.excess.by_overlap;
   }
+
+  /// Designs without a slide come first: one edit is better than two.
+  struct Choice {
+    bool slid;
+    double merit;
+    std::size_t row;
+
+    auto operator<=>(const Choice&) const = default;
+  };
 
   /// Returns D + F / F_now, see `descend_gaps`.
   double merit(const State& state) const {
@@ -84,9 +96,20 @@ class Pursuit {
   }
 
   std::optional<State> after(const ContactEdit& suggestion) const {
-    DeformationResult outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
-    if (outcome.refusal || checker_.form_obstacle(outcome.design)) return std::nullopt;
+    const Design& from = now_.candidate.design;
+    DeformationResult outcome = checker_.space().edited(from, suggestion.edit, constraints_);
+    if (outcome.refusal) return std::nullopt;
     State state;
+    if (const std::optional<Obstacle> refused = checker_.form_obstacle(outcome.design)) {
+      const std::optional<Edit> slide =
+          detail::follower_slide(suggestion, *refused, checker_.space().rest(), from, direction_);
+      if (!slide) return std::nullopt;
+      outcome = checker_.space().edited(from, *slide, constraints_);
+      if (outcome.refusal) return std::nullopt;
+      outcome = checker_.space().edited(outcome.design, suggestion.edit, constraints_);
+      if (outcome.refusal || checker_.form_obstacle(outcome.design)) return std::nullopt;
+      state.slid = true;
+    }
     state.candidate.measured = checker_.measure(outcome.design.shape, direction_);
     state.candidate.energy = meter_.energy(outcome.design, state.candidate.measured.value - at_rest_);
     state.candidate.design = std::move(outcome.design);
@@ -109,6 +132,7 @@ class Pursuit {
     Candidate& next = made[*best]->candidate;
     next.direction = now_.candidate.direction;
     next.reasons = now_.candidate.reasons;
+    if (made[*best]->slid) next.reasons.push_back({EditEffect::compensation});
     next.reasons.push_back(edits[*best].reason);
     now_ = std::move(*made[*best]);
     return true;
@@ -125,9 +149,9 @@ class Pursuit {
   /// requirements but the target, if any does.
   std::optional<std::size_t> choice(const std::vector<std::optional<State>>& made) {
     const double before = merit(now_) - min_merit_gain;
-    std::vector<std::pair<double, std::size_t>> worthwhile;
+    std::vector<Choice> worthwhile;
     for (std::size_t k = 0; k < made.size(); ++k)
-      if (made[k] && merit(*made[k]) < before) worthwhile.emplace_back(merit(*made[k]), k);
+      if (made[k] && merit(*made[k]) < before) worthwhile.push_back({made[k]->slid, merit(*made[k]), k});
     if (worthwhile.empty()) return std::nullopt;
     std::sort(worthwhile.begin(), worthwhile.end());
     const std::size_t checked = std::min(worthwhile.size(), max_checks());
@@ -135,14 +159,14 @@ class Pursuit {
       const std::size_t count = std::min(checked_at_once, checked - first);
       std::array<bool, checked_at_once> kept{};
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        const Design& design = made[worthwhile[first + k].second]->candidate.design;
+        const Design& design = made[worthwhile[first + k].row]->candidate.design;
         kept[k] = !stopped_here() && !checker_.obstacle(design, direction_);
       });
       evaluations_ += check_cost * static_cast<std::int64_t>(count);
       for (std::size_t k = 0; k < count; ++k)
-        if (kept[k]) return worthwhile[first + k].second;
+        if (kept[k]) return worthwhile[first + k].row;
     }
-    return worthwhile.front().second;
+    return worthwhile.front().row;
   }
 
   bool stopped_here() const { return options_.cancelled && options_.cancelled(); }

@@ -44,9 +44,11 @@ struct GapDescentResult {
 /// F falls with every pair that is separated, but not while it is not. Where no single edit separates a pair,
 /// GapMeasure::by_overlap leads through edits that each do a part of it. Each step tries the edits that all
 /// regions with f > f* suggest (contact_edits.h) and adds the one of least D + F / F_before; with limits of
-/// quality, of the 16 best the first one that keeps them all, if any does. The pursuit ends when the target
-/// is reached, when no edit is worth its distortion, or at a limit. Its result is coarse and is meant for
-/// refinement (refinement.h). Deterministic for any number of threads.
+/// quality, of the 16 best the first one that keeps them all, if any does. An edit that is refused for the
+/// size of a part that it carries along is tried after a slide of that part, and taken where no other is
+/// worthwhile (follower_slide.h). The pursuit ends when the target is reached, when no edit is worth its
+/// distortion, or at a limit. Its result is coarse and is meant for refinement (refinement.h). Deterministic
+/// for any number of threads.
 GapDescentResult descend_gaps(const RequirementChecker& checker, const Candidate& start,
                               const GapDescentOptions& options = {});
 
