@@ -430,7 +430,7 @@ TEST_CASE("a resumed run starts anew where there is nothing, and refuses the sta
            {"state", "search-state.json:1: expected JSON"},
            {"{\"format\": \"stackabilization search\", \"version\": 3}",
             "search-state.json: /: this is no saved search of this version"},
-           {"{\"format\": \"stackabilization search\", \"version\": 5}",
+           {"{\"format\": \"stackabilization search\", \"version\": 6}",
             "search-state.json: /: the key 'task' is missing"}}) {
     CHECK(!folder.file("out/search-state.json", state).empty());
     check_refused(folder, joined(folder.more(), {"--resume"}), 3, words);
