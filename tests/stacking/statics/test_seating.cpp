@@ -104,6 +104,16 @@ TEST_CASE("upright walls around a foot jam when they are tight") {
   }
 }
 
+TEST_CASE("tight walls with draft hold with the friction along them less their slope") {
+  const int segments = 24;
+  const double gap = 0.001, friction = 0.2, tangent = 0.05 * std::cos(pi / segments);
+  const Shape box = solids::surface_of_revolution(
+      {{0, 0}, {0.95 - gap, 0}, {1 - gap, 1}, {1.5, 1}, {1.5, 3}, {1, 3}, {0.95, 2}, {0, 2}}, segments);
+  const Seating seat = seating(box, upwards, with_friction(friction));
+  CHECK(seat.pull_off == 0);
+  CHECK(seat.walls_pull_off == Approx((friction - tangent) / (friction + tangent)));
+}
+
 TEST_CASE("a tight wall on one side does not jam") {
   const double gap = 0.001;
   const Shape step = solids::extruded_profile(
