@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/stackability.h"
@@ -103,10 +102,6 @@ Holding holding_of(const Shape& shape, const Direction& direction, const Holding
   stack.semantics = options.semantics;
   stack.friction = options.friction;
   stack.up = up_of_stack(direction);
-  if (stack.up) {
-    const Eigen::Vector3d r = direction.unit();
-    holding.lean_degrees = std::atan2(r.head<2>().norm(), r.z()) * 180 / std::numbers::pi;
-  }
   holding.stability = static_stability(shape, direction, stack);
   holding.needed_friction = needed_friction(shape, direction, stack);
   SeatingOptions seat;
@@ -120,7 +115,8 @@ Holding holding_of(const Shape& shape, const Direction& direction, const Holding
   measure.flat_shapes = FlatShapes::measure;
   const Stackability measured = stackability(shape, direction, measure);
   const bool in_place = measured.f_max < tolerance::relative * measured.extent;
-  holding.drift = stack.up && !in_place ? measured.stack_drift(options.copies) : 0;
+  if (stack.up) holding.lean_degrees = measured.lean_degrees();
+  if (stack.up && !in_place) holding.drift = measured.stack_drift(options.copies);
   return holding;
 }
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "apps/common/text.h"
 #include "apps/report/page.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
-#include "stackabilization/improvement/tolerances.h"
+#include "stackabilization/stacking/static_stability.h"
 
 namespace stackabilization::apps {
 
@@ -35,11 +34,10 @@ std::string saving_text(const StackHeights& stack, Unit unit) {
 }
 
 std::string lean_text(const Stackability& measured, int copies, Unit unit) {
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const double lean = std::acos(std::clamp(up.dot(measured.direction.normalized()), -1.0, 1.0)),
-               drift = measured.stack_drift(copies);
-  if (lean > tolerance::max_stack_lean || drift <= seen_drift * measured.stack_height(copies)) return "";
-  return " The stack leans by " + significant_text(lean * 180 / std::numbers::pi, 2) +
+  const double drift = measured.stack_drift(copies);
+  if (!up_of_stack(Direction(measured.direction)) || drift <= seen_drift * measured.stack_height(copies))
+    return "";
+  return " The stack leans by " + significant_text(measured.lean_degrees(), 2) +
          " degrees: the last copy stands " + quantity(drift, unit) + " beside the first.";
 }
 

@@ -18,6 +18,12 @@ inline double angle_between_lines(const Eigen::Vector3d& a, const Eigen::Vector3
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
+/// Returns the angle between a line and the surface with this normal, radians, in [0, pi / 2]. Accurate also
+/// near both ends.
+inline double angle_to_surface(const Eigen::Vector3d& normal, const Eigen::Vector3d& line) {
+  return std::atan2(std::abs(normal.dot(line)), normal.cross(line).norm());
+}
+
 /// Returns whether two vectors lie on one line through 0, up to an angle with this sine. A zero vector lies
 /// on every line.
 inline bool on_one_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double sine) {

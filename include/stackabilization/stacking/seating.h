@@ -64,8 +64,8 @@ struct Seating {
 ///
 /// Contacts in double precision, forces exactly for pyramids of 32 sides inside the friction cones. Tight
 /// walls are sampled (surface_samples) and may be missed where they are smaller than a sample's share of the
-/// area; of closed parts they look outwards, whatever the orientation of the triangles. Of many holds those
-/// count that are most different from each other. Deterministic. Throws
+/// area; of closed parts they look outwards, whatever the orientation of the triangles. Of more than 96 holds
+/// those count that are most different from each other. Deterministic. Throws
 /// UsageError for options out of range and where r does not point upwards. Throws InputError when
 /// `validate(shape)` fails, the shape has no area, or its copies pass each other along r.
 Seating seating(const Shape& shape, const Direction& direction, const SeatingOptions& options = {});

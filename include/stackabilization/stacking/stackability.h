@@ -57,6 +57,8 @@ struct Stackability {
   double stack_drift(int copies) const {
     return (copies - 1) * f_max * direction.head<2>().norm() / direction.norm();
   }
+  /// Returns the angle between the direction and the z axis, degrees, in [0, 180].
+  double lean_degrees() const;
   double stack_box_volume() const { return extent * base; }  ///< V(M, r)
   /// Returns S for the translation f, model units: 1 - (f / h) V(M, r) / V(M), Eq. 3; NaN if V(M) = 0.
   double value_at(double f) const;

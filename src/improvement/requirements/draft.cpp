@@ -1,10 +1,9 @@
 #include "improvement/requirements/draft.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
+#include "core/angles.h"
 #include "envelope/contacts/contact_normals.h"
 
 namespace stackabilization {
@@ -17,7 +16,7 @@ double contact_draft_degrees(const Shape& shape, const std::vector<ContactRegion
   for (const ContactRegion& region : regions)
     for (const ContactPolygon& polygon : region.polygons)
       if (const auto normal = normals.normal(polygon))
-        least = std::min(least, std::atan2(normal->dot(up), normal->cross(up).norm()));
+        least = std::min(least, detail::angle_to_surface(*normal, up));
   return least * 180 / std::numbers::pi;
 }
 

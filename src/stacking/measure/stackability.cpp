@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -96,6 +97,10 @@ double model_box_volume(const OrientedBox& box, const HullSupport& hull, BoxMode
 }
 
 }  // namespace
+
+double Stackability::lean_degrees() const {
+  return std::atan2(direction.head<2>().norm(), direction.z()) * 180 / std::numbers::pi;
+}
 
 double Stackability::value_at(double f) const {
   return box_volume > 0 ? 1 - f * base / box_volume : std::numeric_limits<double>::quiet_NaN();

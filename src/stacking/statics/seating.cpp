@@ -9,18 +9,19 @@
 #include <numbers>
 #include <utility>
 
+#include "core/angles.h"
 #include "core/bounding_diagonal.h"
 #include "mesh/surface_index.h"
 #include "mesh/surface_moments.h"
 #include "mesh/triangle_tree.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
-#include "stackabilization/envelope/contacts.h"
 #include "stackabilization/stacking/tolerances.h"
 #include "stacking/draft/solid_sides.h"
 #include "stacking/statics/border_margin.h"
 #include "stacking/statics/contact_forces.h"
 #include "stacking/statics/contact_holds.h"
+#include "stacking/statics/copy_joint.h"
 #include "stacking/statics/mass_centre.h"
 
 namespace stackabilization {
@@ -32,11 +33,6 @@ constexpr double max_slope = 1e6;
 
 double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
-}
-
-/// Returns the angle between r and a surface with this normal, radians.
-double draft_of(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
-  return std::atan2(std::abs(normal.dot(up)), normal.cross(up).norm());
 }
 
 /// Returns the least slope over all sides at which contacts lift a copy that is shifted; z is up.
@@ -72,7 +68,7 @@ class TightWallSearch {
     return rows;
   }
   bool is_steep(const Eigen::Vector3d& normal) const {
-    return std::tan(draft_of(normal, axis_)) < options_.friction;
+    return std::tan(detail::angle_to_surface(normal, axis_)) < options_.friction;
   }
 
   const Shape& shape_;
@@ -109,7 +105,8 @@ std::vector<TightWalls> TightWallSearch::run(std::vector<detail::ContactHold>& h
           upper = shape_.triangle_part[static_cast<std::size_t>(hit->triangle)],
           lower =
               shape_.triangle_part[static_cast<std::size_t>(samples.triangles[static_cast<std::size_t>(k)])];
-      const double draft = degrees(std::min(draft_of(normal, axis_), draft_of(facing, axis_)));
+      const double draft =
+          degrees(std::min(detail::angle_to_surface(normal, axis_), detail::angle_to_surface(facing, axis_)));
       auto [wall, added] = walls.try_emplace({upper, lower}, TightWalls{upper, lower, gap, draft, 0});
       wall->second.gap = std::min(wall->second.gap, gap);
       wall->second.draft_degrees = std::min(wall->second.draft_degrees, draft);
@@ -126,15 +123,10 @@ std::vector<TightWalls> TightWallSearch::run(std::vector<detail::ContactHold>& h
 }
 
 void check(const Direction& direction, const SeatingOptions& options) {
-  if (!(std::isfinite(options.friction) && options.friction >= 0))
-    throw UsageError("a coefficient of friction is a finite number of at least 0");
-  if (!(options.band > 0 && options.band < 1))
-    throw UsageError("the band of points that carry must lie between 0 and 1");
+  detail::check_statics(options.band, options.friction, options.up, direction);
   if (!(std::isfinite(options.side_gap.value_or(0)) && options.side_gap.value_or(0) >= 0))
     throw UsageError("the gap of tight walls must be a finite length of at least 0");
   if (options.samples < 1) throw UsageError("tight walls are looked for with at least one sample");
-  if (options.up && !(options.up->dot(direction.vector()) > 0))
-    throw UsageError("a stack that stands goes upwards: its direction must not point down or sideways");
 }
 
 }  // namespace
@@ -143,23 +135,18 @@ Seating seating(const Shape& shape, const Direction& direction, const SeatingOpt
   check(direction, options);
   validate(shape);
   const Eigen::Vector3d mass = detail::mass_centre(shape).centre;
-  const SeparationTree tree(shape);
-  const Separation separation =
-      stackabilization::separation(tree, tree, direction, {options.semantics, std::nullopt});
-  if (!separation.blocked)
-    throw InputError("copies of the shape pass each other along the direction, so none rests on another");
-  const ContactOptions touching{.semantics = options.semantics, .band = options.band};
-  std::vector<detail::ContactHold> contacts = detail::contact_holds(
-      shape, direction, contact_regions({shape, tree, direction, separation}, touching).regions);
+  const detail::CopyJoint joint = detail::copy_joint(shape, direction, options.semantics, options.band);
+  std::vector<detail::ContactHold> contacts = detail::contact_holds(shape, direction, joint.regions);
   const Frame frame = frame_of(options.up ? Direction(*options.up) : direction);
   const Eigen::Vector3d axis = frame.to_local(direction.unit()),
-                        above = frame.to_local(mass) + separation.length * axis;
+                        above = frame.to_local(mass) + joint.lift * axis;
 
   Seating result;
   const std::vector<detail::Hold> holds = detail::holds_in(frame, contacts);
   result.centring_slope = centring_slope(holds);
   for (const detail::Hold& hold : holds)
-    result.draft_degrees = std::min(result.draft_degrees, degrees(draft_of(hold.normal, axis)));
+    result.draft_degrees =
+        std::min(result.draft_degrees, degrees(detail::angle_to_surface(hold.normal, axis)));
   const auto grip_of = [&](const std::vector<detail::ContactHold>& some) {
     return detail::ContactForces(detail::holds_in(frame, some), options.friction, above).grip(axis);
   };
@@ -174,7 +161,7 @@ Seating seating(const Shape& shape, const Direction& direction, const SeatingOpt
     result.lower_part = contacts[static_cast<std::size_t>(strongest)].lower_part;
   }
   std::vector<detail::ContactHold> beside;
-  result.tight = TightWallSearch(shape, direction, separation.length, options).run(beside);
+  result.tight = TightWallSearch(shape, direction, joint.lift, options).run(beside);
   if (result.tight.empty()) return result;
   beside = detail::spread_out(beside, detail::hold_count);
   contacts.insert(contacts.end(), beside.begin(), beside.end());

@@ -16,6 +16,7 @@
 #include "stackabilization/stacking/tolerances.h"
 #include "stacking/statics/contact_forces.h"
 #include "stacking/statics/contact_holds.h"
+#include "stacking/statics/copy_joint.h"
 #include "stacking/statics/mass_centre.h"
 
 namespace stackabilization {
@@ -48,16 +49,17 @@ class StaticStabilityTest {
 
  private:
   using Regions = std::vector<ContactRegion>;
-  /// A copy that rests on another one.
-  struct Joint {
-    Eigen::Vector3d step;  ///< from copy to copy
-    Regions regions;       ///< where they touch
-  };
 
-  Joint joint() const;
-  std::vector<detail::Hold> holds_of(const Joint& joint) const;
+  detail::CopyJoint joint() const {
+    return detail::copy_joint(shape_, direction_, options_.semantics, options_.band);
+  }
+  std::vector<detail::Hold> holds_of(const detail::CopyJoint& joint) const;
   std::set<int> extreme_copies() const;
-  Eigen::Vector3d mass_above(int copy, const Eigen::Vector3d& centre, const Joint& joint) const;
+  /// Returns the way from each copy to the next, in the upright frame.
+  Eigen::Vector3d step_of(const detail::CopyJoint& joint) const {
+    return joint.lift * frame_.to_local(direction_.unit());
+  }
+  Eigen::Vector3d mass_above(int copy, const Eigen::Vector3d& centre, const detail::CopyJoint& joint) const;
   Support support_of(const std::vector<Eigen::Vector3d>& points) const;
   Support ground() const;
   Support support_of(const Regions& regions) const;
@@ -128,18 +130,7 @@ double StaticStabilityTest::tilt(const Support& support, const Eigen::Vector3d& 
   return least;
 }
 
-StaticStabilityTest::Joint StaticStabilityTest::joint() const {
-  const SeparationTree tree(shape_);
-  const Separation separation =
-      stackabilization::separation(tree, tree, direction_, {options_.semantics, std::nullopt});
-  if (!separation.blocked)
-    throw InputError("copies of the shape pass each other along the direction, so none rests on another");
-  const ContactOptions options{.semantics = options_.semantics, .band = options_.band};
-  return {separation.length * frame_.to_local(direction_.unit()),
-          contact_regions({shape_, tree, direction_, separation}, options).regions};
-}
-
-std::vector<detail::Hold> StaticStabilityTest::holds_of(const Joint& joint) const {
+std::vector<detail::Hold> StaticStabilityTest::holds_of(const detail::CopyJoint& joint) const {
   return detail::holds_in(frame_, detail::spread_out(detail::contact_holds(shape_, direction_, joint.regions),
                                                      detail::hold_count));
 }
@@ -153,8 +144,8 @@ std::set<int> StaticStabilityTest::extreme_copies() const {
 
 /// Returns the centre of mass of a copy and those above it, in the coordinates of the copy below.
 Eigen::Vector3d StaticStabilityTest::mass_above(int copy, const Eigen::Vector3d& centre,
-                                                const Joint& joint) const {
-  return centre + (1.0 + options_.copies - copy) / 2 * joint.step;
+                                                const detail::CopyJoint& joint) const {
+  return centre + (1.0 + options_.copies - copy) / 2 * step_of(joint);
 }
 
 StaticStability StaticStabilityTest::run() const {
@@ -167,8 +158,8 @@ StaticStability StaticStabilityTest::run() const {
   if (options_.copies == 1) {
     least = tilt(ground(), centre);
   } else {
-    const Joint joint = this->joint();
-    least = tilt(ground(), centre + (options_.copies - 1.0) / 2 * joint.step);
+    const detail::CopyJoint joint = this->joint();
+    least = tilt(ground(), centre + (options_.copies - 1.0) / 2 * step_of(joint));
     const Support support = support_of(joint.regions);
     const std::vector<detail::Hold> holds = options_.friction ? holds_of(joint) : std::vector<detail::Hold>();
     for (const int copy : extreme_copies()) {
@@ -189,7 +180,7 @@ StaticStability StaticStabilityTest::run() const {
 double StaticStabilityTest::needed_friction() const {
   if (options_.copies == 1) return 0;
   const Eigen::Vector3d centre = frame_.to_local(detail::mass_centre(shape_).centre);
-  const Joint joint = this->joint();
+  const detail::CopyJoint joint = this->joint();
   const std::vector<detail::Hold> holds = holds_of(joint);
   const auto held = [&](double friction) {
     const std::set<int> copies = extreme_copies();
@@ -214,12 +205,7 @@ double StaticStabilityTest::needed_friction() const {
 /// Throws UsageError for options out of range, InputError for a shape that is none.
 void check(const Shape& shape, const Direction& direction, const StaticStabilityOptions& options) {
   if (options.copies < 1) throw UsageError("a stack needs at least one copy");
-  if (!(options.band > 0 && options.band < 1))
-    throw UsageError("the band of points that carry must lie between 0 and 1");
-  if (options.up && !(options.up->dot(direction.vector()) > 0))
-    throw UsageError("a stack that stands goes upwards: its direction must not point down or sideways");
-  if (options.friction && !(std::isfinite(*options.friction) && *options.friction >= 0))
-    throw UsageError("a coefficient of friction is a finite number of at least 0");
+  detail::check_statics(options.band, options.friction, options.up, direction);
   validate(shape);
 }
 
