@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/stackability.h"
 
@@ -55,7 +56,7 @@ void add_standing_lines(TextTable& table, const Holding& holding) {
 void add_centring_line(TextTable& table, double slope) {
   if (slope > seen)
     table.add("Centres", "itself",
-              "a copy beside its place slides back where friction is below " + rounded(slope));
+              "a copy that is shifted without tilting slides back where friction is below " + rounded(slope));
   else if (slope < -seen)
     table.add("Centres", "no", "copies slide off their place where friction is below " + rounded(-slope));
   else
@@ -164,20 +165,19 @@ void add_holding_lines(TextTable& table, const Holding& holding, const std::vect
 std::string holding_text(const Holding& holding, const std::vector<std::string>& part_names) {
   const StaticStability& stack = holding.stability;
   const Seating& seat = holding.seating;
-  std::string text =
-      "With friction " + rounded(holding.options.friction) + " a stack of " +
-      std::to_string(holding.options.copies) +
-      (stack.stands ? " stands on ground tilted by up to " + degrees_text(stack.tipping_degrees)
-                    : " does not stand: " + copy_text(holding) + " topples or slides");
-  text += seat.centring_slope > seen    ? "; copies centre themselves"
-          : seat.centring_slope < -seen ? "; copies tend to slide off their place"
-                                        : "";
+  std::string text = "With friction " + rounded(holding.options.friction) + " a stack of " +
+                     std::to_string(holding.options.copies) +
+                     (stack.stands ? " stands on ground tilted by up to " +
+                                         significant_text(stack.tipping_degrees, 2) + " degrees"
+                                   : " does not stand: " + copy_text(holding) + " topples or slides");
+  if (stack.stands && std::abs(seat.centring_slope) > seen)
+    text += seat.centring_slope > 0 ? "; copies centre themselves" : "; copies tend to slide off their place";
   if (seat.pull_off > 0)
-    text += "; they jam at " + parts_text(part_names, seat.lower_part, seat.upper_part) +
+    text += "; copies jam at " + parts_text(part_names, seat.lower_part, seat.upper_part) +
             ", so that pulling one off takes up to " + percent(seat.pull_off) +
             " of the force that pressed it on";
   else if (seat.walls_pull_off > 0)
-    text += "; pulled askew they jam at " +
+    text += "; pulled askew, copies jam at " +
             parts_text(part_names, seat.tight.front().lower_part, seat.tight.front().upper_part);
   return text + ".";
 }
