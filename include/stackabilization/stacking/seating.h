@@ -35,7 +35,7 @@ struct TightWalls {
 
 /// How a copy sits in the one below.
 struct Seating {
-  /// Least slope over which a copy that is put beside its place slides back, over all sides: it centres
+  /// Least slope over which a copy that is shifted without tilting slides back, over all sides: it centres
   /// itself where friction is below. 0: it stays where it is put, towards at least one side. Negative: it
   /// slides off its place by itself, over a slope of this size at least.
   double centring_slope = 0;
