@@ -15,9 +15,11 @@ enum class SegmentationMethod {
   /// rails of a frame that is one part of the file. Member k of part "frame" is called "frame.k". A triangle
   /// that is flat to a line belongs to the part of the surface beside its longest edge, whatever its label.
   members,
-  whole,           ///< one part, for shapes that deform as a whole, such as a basket of many wires
-  components,      ///< connected components; two components that touch over a large area are merged
-  primitives,      ///< components, each cut by hierarchical fitting of primitives (Attene et al. 2006)
+  whole,       ///< one part, for shapes that deform as a whole, such as a basket of many wires
+  components,  ///< connected components; two components that touch over a large area are merged
+  /// Components, each cut along concave edges (Hoffman and Richards 1984), and what these do not cut by
+  /// hierarchical fitting of primitives (Attene et al. 2006).
+  primitives,
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
   /// `members` when the shape has several parts. Otherwise `whole` for a net of wires. Otherwise `components`
   /// when there are several or when the shape is a body of revolution. Otherwise `primitives`.
@@ -36,17 +38,20 @@ struct SegmentationOptions {
 
 /// Segments a shape: returns it with new parts, and with the same vertices and triangles in the same order.
 /// Parts are named "part_1", "part_2", ... by descending area. The names stay with `given`, and when one part
-/// stays one part. Boundaries between parts are short and follow concave edges. Every part of a component is
-/// connected. A shape of one component is cut alike on both sides of its planes of symmetry, unless a number
-/// of parts is given. Deterministic.
+/// stays one part. Boundaries between parts are short and follow concave edges. A shape of one component is
+/// cut alike on both sides of its planes of symmetry, unless a number of parts is given. Deterministic.
 ///
 /// `primitives` looks for parts that fit a cuboid, a solid of revolution or a ring, not for single faces. It
-/// merges the patches of Attene et al. (2006) as long as the solid behind them fills its primitive. Concave
-/// edges between patches count against a merge. Cavities that the shape itself encloses count as filled, so
-/// that a vessel is one part. Where half of a surface or more is a body of revolution, that body is one part,
-/// unless a number of parts is given. The method orients a component such that its volume is positive.
-/// `shape_diameter` does not cut a component for which CGAL computes no diameter: sheets and meshes of very
-/// few triangles. It may return fewer parts than requested.
+/// takes apart first what sharp concave edges separate all around, as the bodies of a boolean union, unless a
+/// number of parts is given; both sides of a wall stay together. Within what is left it merges the patches of
+/// Attene et al. (2006) as long as the solid behind them fills its primitive. Concave edges between patches
+/// count against a merge. Cavities that the shape itself encloses count as filled, so that a vessel is one
+/// part. Where half of a surface or more is a body of revolution, that body is one part, unless a number of
+/// parts is given. The method orients a component such that its volume is positive. `shape_diameter` does not
+/// cut a component for which CGAL computes no diameter: sheets and meshes of very few triangles. It may
+/// return fewer parts than requested.
+///
+/// A part is connected over the surface, or through a wall where other parts lie between.
 ///
 /// Guarantee: every triangle belongs to exactly one part, also in open, non-manifold and disconnected shapes.
 /// Throws UsageError for options out of range, and InputError when `validate(shape)` fails or, where the

@@ -36,7 +36,8 @@ inline constexpr double parallel = 0.99;
 /// degrees. It is wider than the error of a box fitted to noisy samples.
 inline constexpr double aligned = 0.999;
 
-/// Largest height of a triangle that is flat to a line, fraction of its longest edge: files have six digits.
+/// Largest height of a triangle that is flat to a line, fraction of the diagonal of its mesh: files have six
+/// digits.
 inline constexpr double flat_triangle = 1e-5;
 
 /// How far control points of three consecutive parts of a row may be from even steps, fraction of the step.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "mesh/surface_index.h"
 #include "mesh/triangle_tree.h"
@@ -44,11 +45,16 @@ class ChordCaster {
     lift_ = lift * box.diagonal().norm();
   }
 
+  /// Returns the end of the solid behind a place with an outward normal, or nothing.
+  std::optional<TreePoint> end(const Eigen::Vector3d& place, const Eigen::Vector3d& normal) const {
+    return tree_.first_hit(place - lift_ * normal, -normal);
+  }
+
   void measure(Chord& chord) const {
     chord.end = chord.start;
     chord.end_triangle = -1;
     chord.inner_length = std::numeric_limits<double>::infinity();
-    if (const auto hit = tree_.first_hit(chord.start - lift_ * chord.normal, -chord.normal)) {
+    if (const auto hit = end(chord.start, chord.normal)) {
       chord.end = hit->point;
       chord.end_triangle = hit->triangle;
       chord.inner_length = (hit->point - chord.start).norm();
@@ -115,6 +121,21 @@ std::vector<Chord> chords(const Shape& shape, const SurfaceGraph& graph,
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t k) { caster.measure(result[k]); });
   measure_ends(result, patch);
   return result;
+}
+
+std::vector<SurfaceLink> wall_links(const Shape& shape, const SurfaceGraph& graph) {
+  const SurfaceSamples places = surface_samples(shape, wall_places);
+  const ChordCaster caster(shape, graph);
+  std::vector<std::int32_t> ends(places.triangles.size(), -1);
+  tbb::parallel_for(std::size_t{0}, ends.size(), [&](std::size_t k) {
+    const Eigen::Vector3d normal = graph.normals.row(places.triangles[k]).transpose();
+    const auto end = caster.end(places.points.row(static_cast<Eigen::Index>(k)).transpose(), normal);
+    if (end && graph.normals.row(end->triangle).dot(normal) < 0) ends[k] = end->triangle;
+  });
+  std::vector<SurfaceLink> links;
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    if (ends[k] >= 0) links.push_back({places.triangles[k], ends[k], 0, 0});
+  return links;
 }
 
 }  // namespace stackabilization::detail

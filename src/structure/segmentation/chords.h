@@ -31,4 +31,11 @@ struct Chord {
 std::vector<Chord> chords(const Shape& shape, const SurfaceGraph& graph,
                           const std::vector<std::int32_t>& patch, int count);
 
+/// Number of places of `wall_links`.
+constexpr int wall_places = 4096;
+
+/// Returns links of length 0 from places of the surface that stand for equal areas to the triangles at which
+/// the solid behind them ends. Places behind which it has no end, or another shell begins, have no link.
+std::vector<SurfaceLink> wall_links(const Shape& shape, const SurfaceGraph& graph);
+
 }  // namespace stackabilization::detail

@@ -14,25 +14,22 @@ namespace stackabilization::detail {
 
 namespace {
 
-struct FlatTriangle {
-  std::int32_t row;
-  double length;     ///< of the longest edge
-  std::size_t edge;  ///< row of the longest edge in the edge table
-};
-
 double length_of(const WeldedMesh& mesh, std::int32_t triangle, int corner) {
   const auto point = [&](int k) { return mesh.points.row(mesh.triangles(triangle, k % 3)); };
   return (point(corner + 1) - point(corner)).stableNorm();
 }
 
-/// Returns the flat triangles with an edge, longest first.
+}  // namespace
+
 std::vector<FlatTriangle> flat_triangles(const WeldedMesh& mesh, const EdgeTable& edges) {
+  const double height =
+      tolerance::flat_triangle * (mesh.points.colwise().maxCoeff() - mesh.points.colwise().minCoeff()).norm();
   std::vector<FlatTriangle> found;
   std::vector<std::int32_t> place(static_cast<std::size_t>(mesh.triangles.rows()), -1);
   for (std::size_t edge = 0; edge < edges.size(); ++edge)
     for (const TriangleSide& side : edges[edge]) {
       const double length = length_of(mesh, side.triangle, side.corner);
-      if (2 * mesh.area(side.triangle) > tolerance::flat_triangle * length * length) continue;
+      if (2 * mesh.area(side.triangle) > height * length) continue;
       std::int32_t& of_triangle = place[at(side.triangle)];
       if (of_triangle < 0) {
         of_triangle = static_cast<std::int32_t>(found.size());
@@ -46,8 +43,6 @@ std::vector<FlatTriangle> flat_triangles(const WeldedMesh& mesh, const EdgeTable
   });
   return found;
 }
-
-}  // namespace
 
 Shape with_flat_triangles_at_their_edges(const Shape& shape) {
   const WeldedMesh mesh = weld(shape);

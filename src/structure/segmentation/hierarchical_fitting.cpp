@@ -55,8 +55,9 @@ struct Border {
 /// Patches with the data for measuring their unions.
 class Patches {
  public:
-  Patches(const Shape& shape, const SurfaceGraph& graph)
-      : patch_(surface_patches(shape, graph, patch_count(graph))),
+  Patches(const Shape& shape, const SurfaceGraph& graph, const WholeSize& whole)
+      : whole_(whole),
+        patch_(surface_patches(shape, graph, patch_count(graph))),
         chords_(chords(shape, graph, patch_, chords_per_patch * patch_count(graph))) {
     const auto count = static_cast<std::size_t>(*std::max_element(patch_.begin(), patch_.end())) + 1;
     chords_of_.resize(count);
@@ -76,8 +77,6 @@ class Patches {
       areas_[patch_of(t)] += graph.areas(t);
       moments_[patch_of(t)] += graph.areas(t) * graph.centres.row(t).transpose();
     }
-    area_ = graph.areas.sum();
-    diagonal_ = graph.diagonal;
     for (const SurfaceLink& link : graph.links) add_border(link);
   }
 
@@ -91,13 +90,13 @@ class Patches {
   }
   double area(std::int32_t p) const { return areas_[static_cast<std::size_t>(p)]; }
   const Eigen::Vector3d& moment(std::int32_t p) const { return moments_[static_cast<std::size_t>(p)]; }
-  double total_area() const { return area_; }
-  double diagonal() const { return diagonal_; }
+  double total_area() const { return whole_.area; }
+  double diagonal() const { return whole_.diagonal; }
 
   /// Mean squared empty length that the volume of some chords contributes to the whole, fraction of the
   /// squared diagonal.
   double emptiness(const std::vector<std::int32_t>& chord) const {
-    return volume_error(chords_, chord) / (area_ * diagonal_ * diagonal_);
+    return volume_error(chords_, chord) / (total_area() * diagonal() * diagonal());
   }
 
  private:
@@ -113,13 +112,13 @@ class Patches {
     borders_[b][static_cast<std::int32_t>(a)] += {link.length, link.length * concave};
   }
 
+  WholeSize whole_;
   std::vector<std::int32_t> patch_;
   std::vector<Chord> chords_;
   std::vector<std::vector<std::int32_t>> chords_of_;
   std::vector<std::map<std::int32_t, Border>> borders_;
   std::vector<double> areas_, free_;
   std::vector<Eigen::Vector3d> moments_;
-  double area_ = 0, diagonal_ = 0;
 };
 
 /// Joins clusters of patches, cheapest pair first.
@@ -227,8 +226,8 @@ void VolumeClustering::merge(std::int32_t a, std::int32_t b) {
 }  // namespace
 
 std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts,
-                                       double smallest) {
-  const Patches patches(shape, graph);
+                                       double smallest, const WholeSize& whole) {
+  const Patches patches(shape, graph, whole);
   const double limit =
       parts > 0 ? std::numeric_limits<double>::infinity() : tolerated_emptiness * tolerated_emptiness;
   const std::vector<std::int32_t> cluster =

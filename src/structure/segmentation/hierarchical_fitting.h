@@ -8,6 +8,12 @@
 
 namespace stackabilization::detail {
 
+/// Size of the shape against which the fit of its parts is measured.
+struct WholeSize {
+  double area;      ///< of the surface, model units squared
+  double diagonal;  ///< of the bounding box, model units
+};
+
 /// Cuts a shape into parts that fit a cuboid, a solid of revolution or a ring. Returns the part of every
 /// triangle; every part is connected. Precondition: the graph is connected.
 ///
@@ -19,9 +25,11 @@ namespace stackabilization::detail {
 ///    table top do not merge.
 ///
 /// `parts`: number of parts of the result. 0: merging stops where the root mean square of the added empty
-/// length exceeds a fixed fraction of the bounding-box diagonal. Parts smaller than `smallest` (fraction of
-/// the area) do not count; they join the neighbour of least cost.
+/// length exceeds a fixed fraction of the diagonal of `whole`, over its area. Parts smaller than `smallest`
+/// (fraction of the area of `whole`) do not count; they join the neighbour of least cost.
+///
+/// `whole`: the size of the shape, or of the one that it was cut from.
 std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts,
-                                       double smallest);
+                                       double smallest, const WholeSize& whole);
 
 }  // namespace stackabilization::detail

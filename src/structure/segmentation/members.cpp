@@ -14,12 +14,14 @@
 #include <utility>
 #include <variant>
 
+#include "core/bounding_diagonal.h"
 #include "core/disjoint_sets.h"
+#include "core/index.h"
 #include "mesh/surface_index.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/structure/fitting.h"
 #include "structure/fitting/part_box.h"
-#include "structure/segmentation/components.h"
+#include "structure/segmentation/convex_regions.h"
 #include "structure/segmentation/segment_boundaries.h"
 #include "structure/segmentation/surface_graph.h"
 
@@ -84,12 +86,14 @@ Pieces joined(const Pieces& pieces, DisjointSets& sets) {
   return result;
 }
 
-/// Joins neighbouring pieces whose border is nowhere concave, or hardly.
-Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, double min_concave) {
+/// Joins neighbouring pieces whose border is nowhere concave, or hardly, and more than a little of all
+/// borders of one of them.
+Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, const MemberRule& rule) {
   struct Concavity {
     double length = 0, concave = 0;
   };
   std::map<std::pair<std::int32_t, std::int32_t>, Concavity> borders;
+  std::vector<double> around(static_cast<std::size_t>(piece_count(pieces)), 0);
   for (const SurfaceLink& link : graph.links) {
     const auto [a, b] =
         std::minmax(pieces[static_cast<std::size_t>(link.a)], pieces[static_cast<std::size_t>(link.b)]);
@@ -97,11 +101,16 @@ Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, d
     Concavity& border = borders[{a, b}];
     border.length += link.length;
     border.concave += link.length * concavity(link);
+    around[at(a)] += link.length;
+    around[at(b)] += link.length;
   }
-  DisjointSets sets(static_cast<std::size_t>(piece_count(pieces)));
-  for (const auto& [pair, border] : borders)
-    if (border.length > 0 && border.concave < min_concave * border.length)
-      sets.join(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
+  DisjointSets sets(around.size());
+  for (const auto& [pair, border] : borders) {
+    const auto& [a, b] = pair;
+    if (border.concave < rule.min_concave * border.length &&
+        border.length > rule.little_border * std::min(around[at(a)], around[at(b)]))
+      sets.join(at(a), at(b));
+  }
   return joined(pieces, sets);
 }
 
@@ -141,10 +150,12 @@ Pieces with_their_faces(const SurfaceGraph& graph, const Pieces& pieces, const M
 
 /// A part with what copying a cut from one side to the other needs.
 struct CutPart {
-  explicit CutPart(const Shape& part)
-      : shape(part), graph(surface_graph(part)), index(part), shells(connected_components(weld(part))) {
-    link_shells(graph, part, ContactRule().reach * graph.diagonal);
-  }
+  /// `smallest`: area of the smallest piece, fraction.
+  CutPart(const Shape& part, double smallest)
+      : shape(part),
+        graph(linked_surface_graph(part, smallest)),
+        index(part),
+        shells(connected_components(weld(part))) {}
 
   const Shape& shape;
   SurfaceGraph graph;
@@ -215,22 +226,6 @@ Pieces image(const CutPart& to, const CutPart& from, const Pieces& pieces, const
   return with_whole_shells(to, std::move(result));
 }
 
-/// Returns for every piece the one that its image overlaps most, if that is so the other way round as well,
-/// and a new one beyond `count` otherwise.
-Pieces partners(const CutPart& part, const Pieces& pieces, const Pieces& images, std::int32_t count) {
-  Eigen::MatrixXd overlap = Eigen::MatrixXd::Zero(count, count);
-  for (std::size_t t = 0; t < pieces.size(); ++t)
-    overlap(pieces[t], images[t]) += part.graph.areas(static_cast<Eigen::Index>(t));
-  overlap += overlap.transpose().eval();
-  Pieces best(static_cast<std::size_t>(count));
-  for (std::int32_t p = 0; p < count; ++p) overlap.row(p).maxCoeff(&best[static_cast<std::size_t>(p)]);
-  Pieces result = best;
-  for (std::int32_t p = 0; p < count; ++p)
-    if (best[static_cast<std::size_t>(best[static_cast<std::size_t>(p)])] != p)
-      result[static_cast<std::size_t>(p)] = count + p;
-  return result;
-}
-
 /// Returns the area on which two cuts differ, of the whole area.
 double difference(const SurfaceGraph& graph, const Pieces& one, const Pieces& other) {
   double area = 0;
@@ -239,35 +234,67 @@ double difference(const SurfaceGraph& graph, const Pieces& one, const Pieces& ot
   return area / graph.areas.sum();
 }
 
-/// Returns the two cuts that are their own images: where piece and image do not agree, the pieces on one side
-/// of the plane or on the other are kept.
+/// Returns `pieces` of one side of a plane and their images on the other one. A piece and its image are one
+/// where most of the border between them runs within one piece of the cut as it was: a rail across the plane,
+/// and not two halves that meet there. `keeps`: per triangle, whether its piece is kept.
+Pieces with_images(const CutPart& part, const Pieces& pieces, const Pieces& images,
+                   const std::vector<char>& keeps) {
+  const std::int32_t count = piece_count(pieces);
+  Pieces cut = pieces;
+  for (std::size_t t = 0; t < cut.size(); ++t)
+    if (!keeps[t]) cut[t] = count + images[t];
+  std::vector<double> within(static_cast<std::size_t>(count), 0), between = within;
+  for (const SurfaceLink& link : part.graph.links) {
+    const auto [kept, image] = std::minmax(cut[at(link.a)], cut[at(link.b)]);
+    if (image - kept != count) continue;
+    (pieces[at(link.a)] == pieces[at(link.b)] ? within : between)[at(kept)] += link.length;
+  }
+  DisjointSets sets(static_cast<std::size_t>(2 * count));
+  for (std::int32_t p = 0; p < count; ++p)
+    if (within[at(p)] > between[at(p)]) sets.join(at(p), at(count + p));
+  return joined(cut, sets);
+}
+
+/// Returns the two cuts that are their own images: the pieces on one side of the plane are kept, or those on
+/// the other.
 std::array<Pieces, 2> mirrored(const CutPart& part, const Pieces& pieces, const Symmetry& reflection,
                                double smallest) {
   const Pieces images = image(part, part, pieces, reflection);
-  const Pieces partner = partners(part, pieces, images, piece_count(pieces));
-  std::array<Pieces, 2> cuts = {pieces, pieces};
+  std::array<std::vector<char>, 2> keeps;
   for (std::size_t t = 0; t < pieces.size(); ++t) {
     const Eigen::Vector3d centre = part.graph.centres.row(static_cast<Eigen::Index>(t));
     const double side = reflection.axis.dot(centre - reflection.point);
-    if (side != 0) cuts[side < 0 ? 0 : 1][t] = partner[static_cast<std::size_t>(images[t])];
+    keeps[0].push_back(side >= 0);
+    keeps[1].push_back(side <= 0);
   }
-  for (Pieces& cut : cuts) cut = merge_small_segments(part.graph, cut, smallest * part.graph.areas.sum());
+  std::array<Pieces, 2> cuts;
+  for (std::size_t k = 0; k < cuts.size(); ++k)
+    cuts[k] = merge_small_segments(part.graph, with_images(part, pieces, images, keeps[k]),
+                                   smallest * part.graph.areas.sum());
   return cuts;
 }
 
 }  // namespace
+
+bool is_small(const Shape& part, double whole, const MemberRule& rule) {
+  return bounding_diagonal(part) <= rule.small * whole;
+}
+
+bool may_have_members(const FittedPrimitive& part, const MemberRule& rule) {
+  return has_corners(part.primitive, rule) || is_ring(part.primitive) ||
+         relative_misfit(part.fit) >= rule.misfit;
+}
 
 std::vector<std::int32_t> members(const Shape& part, const CutIntoPieces& cut, const MemberRule& rule) {
   Pieces one_piece(part.triangle_part.size(), 0);
   const SurfaceGraph graph = surface_graph(part);
   if (!(graph.areas.sum() > 0)) return one_piece;
   const FittedPrimitive whole = fit_primitive(part);
-  const bool frame = has_corners(whole.primitive, rule);
-  if (!frame && !is_ring(whole.primitive) && relative_misfit(whole.fit) < rule.misfit) return one_piece;
-  Pieces pieces = with_their_faces(graph, without_smooth_borders(graph, cut(part), rule.min_concave), rule);
+  if (!may_have_members(whole, rule)) return one_piece;
+  Pieces pieces = with_their_faces(graph, without_smooth_borders(graph, cut(part), rule), rule);
   const std::int32_t count = piece_count(pieces);
   if (count < 2 || count > rule.max_members) return one_piece;
-  const double gain = frame ? rule.gain_of_frames : rule.gain;
+  const double gain = has_corners(whole.primitive, rule) ? rule.gain_of_frames : rule.gain;
   return misfit(part, pieces) <= gain * misfit(part, one_piece) ? pieces : one_piece;
 }
 
@@ -275,7 +302,7 @@ void make_symmetric(const std::vector<Shape>& parts, const std::vector<Relation>
                     std::vector<std::vector<std::int32_t>>& members) {
   std::map<std::size_t, CutPart> cut;
   const auto part = [&](std::size_t p) -> const CutPart& {
-    return cut.try_emplace(p, parts[p]).first->second;
+    return cut.try_emplace(p, parts[p], smallest).first->second;
   };
   const auto reflects = [](const Relation& relation, RelationType type) {
     return relation.type == type && relation.symmetry.kind == SymmetryKind::reflection;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stackabilization/core/shape.h"
+#include "stackabilization/structure/fitting.h"
 #include "stackabilization/structure/structure.h"
 
 namespace stackabilization::detail {
@@ -25,6 +26,9 @@ struct MemberRule {
   /// Least share of the border of two members across which the surface is concave: a curved backrest is not
   /// cut where it bends evenly.
   double min_concave = 0.1;
+  /// Share of the whole border of a member that is little: the flush undersides of two feet beside a column,
+  /// for which the feet are not one member.
+  double little_border = 0.25;
   /// Least vector area of a piece that is a face of another one, fraction of its area; and least part of it
   /// by which it makes the vector area of the other one smaller. A face is no member.
   double one_sided = 0.9, closes = 0.5;
@@ -33,6 +37,13 @@ struct MemberRule {
   /// whole shape.
   double small = 0.1;
 };
+
+/// Returns whether a part is too small to be cut, against a whole of diagonal `whole` (model units).
+bool is_small(const Shape& part, double whole, const MemberRule& rule = {});
+
+/// Returns whether a part may consist of several members: one primitive represents it badly, or has corners,
+/// or is closed.
+bool may_have_members(const FittedPrimitive& part, const MemberRule& rule = {});
 
 /// Cuts a connected part into pieces: returns a number per triangle, from 0.
 using CutIntoPieces = std::function<std::vector<std::int32_t>(const Shape&)>;

@@ -12,9 +12,12 @@
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
+#include "stackabilization/structure/fitting.h"
 #include "structure/fitting/revolution_axis.h"
 #include "structure/model/fit_error.h"
+#include "structure/segmentation/chords.h"
 #include "structure/segmentation/components.h"
+#include "structure/segmentation/convex_regions.h"
 #include "structure/segmentation/flat_triangles.h"
 #include "structure/segmentation/hierarchical_fitting.h"
 #include "structure/segmentation/members.h"
@@ -68,6 +71,23 @@ Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& pa
   return result;
 }
 
+/// Cuts every piece of a shape by itself, and returns a number per triangle, from 0.
+std::vector<std::int32_t> cut_each(const Shape& shape, const std::vector<std::int32_t>& piece,
+                                   const detail::CutIntoPieces& cut) {
+  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(count_of(piece)));
+  for (std::size_t t = 0; t < piece.size(); ++t)
+    rows[static_cast<std::size_t>(piece[t])].push_back(static_cast<std::int32_t>(t));
+  std::vector<std::int32_t> part(piece.size());
+  std::int32_t next = 0;
+  for (const std::vector<std::int32_t>& of_piece : rows) {
+    const std::vector<std::int32_t> pieces = cut(detail::extracted(shape, of_piece));
+    for (std::size_t k = 0; k < of_piece.size(); ++k)
+      part[static_cast<std::size_t>(of_piece[k])] = next + pieces[k];
+    next += count_of(pieces);
+  }
+  return part;
+}
+
 /// Makes `body`, one flag per triangle or empty, a part of its own, whatever the clusters are: a handle that
 /// goes down to the foot of its mug does not take the foot along.
 void keep_together(const std::vector<char>& body, std::vector<std::int32_t>& part) {
@@ -76,49 +96,104 @@ void keep_together(const std::vector<char>& body, std::vector<std::int32_t>& par
     if (body[t]) part[t] = number;
 }
 
-/// Cuts one component, whose triangles are `rows`, and returns a number per row.
-std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions& options) {
-  detail::SurfaceGraph graph = detail::surface_graph(component);
-  if (!(graph.areas.sum() > 0)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
-  // The number of parts that is asked for comes first, and thickness is a measure of its own.
-  const bool fits = options.method != SegmentationMethod::shape_diameter && options.parts == 0;
-  const std::vector<char> body =
-      fits ? detail::revolution_body(component, graph, options.min_part_area) : std::vector<char>();
-  detail::link_shells(graph, component, detail::ContactRule().reach * graph.diagonal);
-  std::vector<std::int32_t> part =
-      options.method == SegmentationMethod::shape_diameter
-          ? detail::shape_diameter_parts(component, graph, options.parts)
-          : detail::fitted_parts(component, graph, options.parts, options.min_part_area);
-  keep_together(body, part);
-  part = detail::with_smooth_boundaries(graph, std::move(part), {});
-  return detail::merge_small_segments(graph, part, options.min_part_area * graph.areas.sum());
-}
+/// What cuts a component first.
+enum class CutsBy { concave_edges, fitting };
+
+/// Cuts components of surfaces. What is large or small is so against the component.
+class ComponentCutter {
+ public:
+  ComponentCutter(const Shape& component, const SegmentationOptions& options)
+      : component_(component), options_(options), graph_(detail::surface_graph(component)) {
+    whole_ = {graph_.areas.sum(), graph_.diagonal};
+    min_area_ = options.min_part_area * whole_.area;
+  }
+
+  /// Returns a number per triangle. Concave edges and walls do not count where a number of parts or thickness
+  /// does.
+  std::vector<std::int32_t> run(CutsBy by) {
+    if (!(whole_.area > 0)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph_.size()), 0);
+    if (options_.method == SegmentationMethod::shape_diameter) {
+      link_shells(graph_, component_);
+      return tidied(graph_, detail::shape_diameter_parts(component_, graph_, options_.parts));
+    }
+    if (options_.parts > 0 || by == CutsBy::fitting) return tidied(graph_, fit(component_, graph_));
+    const std::vector<detail::SurfaceLink> walls = detail::wall_links(component_, graph_);
+    const std::vector<std::int32_t> regions = detail::convex_regions(graph_);
+    const std::vector<std::int32_t> bodies = detail::joined_across_walls(graph_, regions, walls, min_area_);
+    const std::vector<detail::SurfaceLink> inner_walls =
+        detail::inner_walls(graph_, regions, walls, min_area_);
+    std::vector<std::int32_t> part =
+        count_of(bodies) == 1
+            ? fit(component_, graph_)
+            : cut_each(component_, bodies, [&](const Shape& body) { return cut_body(body); });
+    detail::add_links(graph_, inner_walls);
+    return tidied(graph_, detail::with_inner_sides(std::move(part), regions, inner_walls));
+  }
+
+ private:
+  static void link_shells(detail::SurfaceGraph& graph, const Shape& shape) {
+    detail::link_shells(graph, shape, detail::ContactRule().reach * graph.diagonal);
+  }
+
+  /// Returns clusters with boundaries along concave edges, and none smaller than a part may be.
+  std::vector<std::int32_t> tidied(const detail::SurfaceGraph& graph, std::vector<std::int32_t> part) const {
+    part = detail::with_smooth_boundaries(graph, std::move(part), {});
+    return detail::merge_small_segments(graph, part, min_area_);
+  }
+
+  /// Returns the clusters that fit primitives: so many if a number is given.
+  std::vector<std::int32_t> fit(const Shape& shape, detail::SurfaceGraph& graph) const {
+    const std::vector<char> body = options_.parts == 0
+                                       ? detail::revolution_body(shape, graph, options_.min_part_area)
+                                       : std::vector<char>();
+    link_shells(graph, shape);
+    std::vector<std::int32_t> part =
+        detail::fitted_parts(shape, graph, options_.parts, options_.min_part_area, whole_);
+    keep_together(body, part);
+    return part;
+  }
+
+  /// Cuts what concave edges bound as the component would be cut, and what is left of it into members.
+  std::vector<std::int32_t> cut_body(const Shape& body) const {
+    detail::SurfaceGraph graph = detail::surface_graph(body);
+    if (!is_cut(body)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
+    std::vector<std::int32_t> part = fit(body, graph);
+    part = tidied(graph, std::move(part));
+    return cut_each(body, part, [&](const Shape& piece) {
+      if (!is_cut(piece)) return std::vector<std::int32_t>(piece.triangle_part.size(), 0);
+      return detail::members(
+          piece, [&](const Shape& of) { return ComponentCutter(of, options_).run(CutsBy::fitting); });
+    });
+  }
+
+  /// Returns whether a piece of the component is large enough to be cut, and no single primitive.
+  bool is_cut(const Shape& piece) const {
+    return detail::surface_graph(piece).areas.sum() > 0 && !detail::is_small(piece, whole_.diagonal) &&
+           detail::may_have_members(fit_primitive(piece));
+  }
+
+  const Shape& component_;
+  const SegmentationOptions& options_;
+  detail::SurfaceGraph graph_;
+  detail::WholeSize whole_{};
+  double min_area_ = 0;
+};
 
 Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& component,
-                     const SegmentationOptions& options) {
-  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(count_of(component)));
-  for (std::size_t t = 0; t < component.size(); ++t)
-    rows[static_cast<std::size_t>(component[t])].push_back(static_cast<std::int32_t>(t));
-  std::vector<std::int32_t> part(component.size());
-  std::int32_t next = 0;
-  for (const std::vector<std::int32_t>& members : rows) {
-    const std::vector<std::int32_t> pieces = cut(detail::extracted(shape, members), options);
-    for (std::size_t k = 0; k < members.size(); ++k)
-      part[static_cast<std::size_t>(members[k])] = next + pieces[k];
-    next += count_of(pieces);
-  }
-  return with_parts_by_area(shape, part);
+                     const SegmentationOptions& options, CutsBy by = CutsBy::concave_edges) {
+  return with_parts_by_area(shape, cut_each(shape, component, [&](const Shape& part) {
+                              return ComponentCutter(part, options).run(by);
+                            }));
 }
 
-/// Returns the pieces of a part that is cut into its components, and each of these by fitting primitives.
-/// Pieces too small for a part, such as the cap of a foot, join the nearest one.
-std::vector<std::int32_t> pieces_of(const Shape& part, SegmentationOptions options) {
+/// Returns the pieces of a part that is cut into its components, and each of these. Pieces too small for a
+/// part, such as the cap of a foot, join the nearest one.
+std::vector<std::int32_t> pieces_of(const Shape& part, SegmentationOptions options, CutsBy by) {
   const std::vector<std::int32_t> component = detail::merged_components(part);
   if (detail::is_rod_lattice(part, component)) return std::vector<std::int32_t>(component.size(), 0);
   options.method = SegmentationMethod::primitives;
-  detail::SurfaceGraph graph = detail::surface_graph(part);
-  detail::link_shells(graph, part, detail::ContactRule().reach * graph.diagonal);
-  return detail::merge_small_segments(graph, cut_components(part, component, options).triangle_part,
+  const detail::SurfaceGraph graph = detail::linked_surface_graph(part, options.min_part_area);
+  return detail::merge_small_segments(graph, cut_components(part, component, options, by).triangle_part,
                                       options.min_part_area * graph.areas.sum());
 }
 
@@ -140,15 +215,17 @@ Shape with_members(const Shape& shape, const SegmentationOptions& options,
                    const detail::SymmetrySource& symmetries) {
   const std::vector<Shape> parts = extract_parts(shape);
   std::vector<std::vector<std::int32_t>> members(parts.size());
-  const auto cut = [&](const Shape& part) { return pieces_of(part, options); };
-  const double small = detail::MemberRule().small * bounding_diagonal(shape);
+  const double diagonal = bounding_diagonal(shape);
+  const auto is_cut = [](const std::vector<std::int32_t>& of_part) { return count_of(of_part) > 1; };
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-    if (bounding_diagonal(parts[p]) <= small)
+    if (detail::is_small(parts[p], diagonal))
       members[p].assign(parts[p].triangle_part.size(), 0);
     else
-      members[p] = detail::members(parts[p], cut);
+      for (const CutsBy by : {CutsBy::concave_edges, CutsBy::fitting})
+        if (members[p].empty() || !is_cut(members[p]))
+          members[p] =
+              detail::members(parts[p], [&](const Shape& part) { return pieces_of(part, options, by); });
   });
-  const auto is_cut = [](const std::vector<std::int32_t>& of_part) { return count_of(of_part) > 1; };
   if (std::none_of(members.begin(), members.end(), is_cut)) return shape;
   detail::make_symmetric(parts, symmetry_relations(shape, symmetries()), options.min_part_area, members);
   Shape result = shape;

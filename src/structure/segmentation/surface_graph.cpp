@@ -16,6 +16,7 @@
 #include "mesh/oriented_mesh.h"
 #include "mesh/surface_index.h"
 #include "mesh/welded_mesh.h"
+#include "structure/segmentation/flat_triangles.h"
 
 namespace stackabilization::detail {
 
@@ -33,6 +34,7 @@ class GraphBuilder {
   SurfaceGraph run() {
     measure();
     turn_outward();
+    level_flat_triangles();
     link_copies();
     link_across_edges();
     link_across_points();
@@ -48,6 +50,7 @@ class GraphBuilder {
   const Triangles& collapse_copies();
   void measure();
   void turn_outward();
+  void level_flat_triangles();
   void link_copies();
   void link_across_edges();
   void link_across_points();
@@ -119,6 +122,20 @@ void GraphBuilder::turn_outward() {
   }
   for (Eigen::Index t = 0; t < m; ++t)
     if (volume(piece(t)) < 0) graph_.normals.row(t) *= -1;
+}
+
+/// Gives flat triangles the normal of the surface beside their longest edge.
+void GraphBuilder::level_flat_triangles() {
+  const std::vector<FlatTriangle> flat = flat_triangles(mesh_, edges_);
+  std::vector<char> unknown(at(static_cast<std::int32_t>(shape_.triangle_count())), 0);
+  for (const FlatTriangle& one : flat) unknown[at(one.row)] = 1;
+  for (const FlatTriangle& one : flat)
+    for (const TriangleSide& side : edges_[one.edge]) {
+      if (unknown[at(side.triangle)]) continue;
+      graph_.normals.row(one.row) = graph_.normals.row(side.triangle);
+      unknown[at(one.row)] = 0;
+      break;
+    }
 }
 
 void GraphBuilder::link_copies() {
@@ -244,12 +261,18 @@ Shape extracted(const Shape& shape, const std::vector<std::int32_t>& rows) {
   return piece;
 }
 
+void add_links(SurfaceGraph& graph, const std::vector<SurfaceLink>& links) {
+  for (const SurfaceLink& link : links) {
+    for (const std::int32_t end : {link.a, link.b})
+      graph.links_of[at(end)].push_back(static_cast<std::int32_t>(graph.links.size()));
+    graph.links.push_back(link);
+  }
+}
+
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach) {
   const std::vector<Shell> shells = shells_by_area(graph, shape);
   const auto add = [&](const ShellContact& contact) {
-    for (const std::int32_t end : {contact.from, contact.onto})
-      graph.links_of[static_cast<std::size_t>(end)].push_back(static_cast<std::int32_t>(graph.links.size()));
-    graph.links.push_back({contact.from, contact.onto, std::sqrt(graph.areas(contact.from)), 0});
+    add_links(graph, {{contact.from, contact.onto, std::sqrt(graph.areas(contact.from)), 0}});
   };
   for (std::size_t s = 1; s < shells.size(); ++s) {
     const std::span<const Shell> hosts = std::span(shells).first(std::min(s, max_hosts));

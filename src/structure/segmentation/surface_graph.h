@@ -22,7 +22,8 @@ struct SurfaceLink {
 struct SurfaceGraph {
   Eigen::VectorXd areas;  ///< areas of the triangles, model units squared
   Points centres;         ///< centroids of the triangles, model units
-  /// Unit normals, outward where the orientation can be determined; zero for triangles without area.
+  /// Unit normals, outward where the orientation can be determined. Flat triangles have that of the surface
+  /// beside their longest edge; other triangles without area have zero.
   Points normals;
   double diagonal = 0;  ///< diagonal of the bounding box of the triangles, model units
   std::vector<SurfaceLink> links;
@@ -48,6 +49,9 @@ SurfaceGraph surface_graph(const Shape& shape);
 /// places within `reach` (model units) of one of them, or at its nearest triangle when there is no such
 /// place.
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach);
+
+/// Adds links to a graph.
+void add_links(SurfaceGraph& graph, const std::vector<SurfaceLink>& links);
 
 /// Returns the triangles `rows` of `shape`, in their order, as a shape of one part.
 Shape extracted(const Shape& shape, const std::vector<std::int32_t>& rows);

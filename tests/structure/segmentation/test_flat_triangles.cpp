@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdint>
 
 #include "stackabilization/structure/segmentation.h"
@@ -61,11 +62,12 @@ TEST_CASE("a flat triangle along a leg belongs to the leg, whatever its label") 
 
 TEST_CASE("a triangle keeps its label where it is not flat, lies at its own part, or lies nowhere") {
   Shape shape = top_on_leg();
-  const std::size_t high = add_flat(shape, 0, 5, 10, of_top, 1.01e-4);
+  const double height = 1e-5 * std::sqrt(8 * 8 + 8 * 8 + 11 * 11);  // of the diagonal
+  const std::size_t high = add_flat(shape, 0, 5, 10, of_top, 1.01 * height);
   const std::size_t alone = add_flat(shape, 2, 4, 7, of_top);
   CHECK(with_flat_triangles_at_their_edges(shape).triangle_part == shape.triangle_part);
   // A little lower, the first one is flat.
-  shape.vertices(shape.triangles(static_cast<Eigen::Index>(high), 1), 1) = 0.99e-4;
+  shape.vertices(shape.triangles(static_cast<Eigen::Index>(high), 1), 1) = 0.99 * height;
   CHECK(with_flat_triangles_at_their_edges(shape).triangle_part[high] == of_leg);
   CHECK(with_flat_triangles_at_their_edges(shape).triangle_part[alone] == of_top);
 

@@ -1,0 +1,167 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "stackabilization/structure/segmentation.h"
+#include "structure/segmentation/chords.h"
+#include "structure/segmentation/convex_regions.h"
+#include "structure/segmentation/surface_graph.h"
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/voxels.h"
+
+using namespace stackabilization;
+
+namespace {
+
+using Pieces = std::vector<std::int32_t>;
+
+/// Returns the pieces of the triangles of each box of a union.
+std::vector<std::set<std::int32_t>> pieces_of_boxes(const Shape& boxes, const Pieces& pieces) {
+  std::vector<std::set<std::int32_t>> found(static_cast<std::size_t>(boxes.part_count()));
+  for (std::size_t t = 0; t < pieces.size(); ++t)
+    found[static_cast<std::size_t>(boxes.triangle_part[t])].insert(pieces[t]);
+  return found;
+}
+
+/// Checks that the triangles of every box of a union are one part, and one of their own.
+void check_cut_into_boxes(const std::vector<solids::GridBox>& boxes) {
+  const Shape shape = solids::grid_union(boxes);
+  Shape whole = shape;
+  whole.part_names = {"whole"};
+  whole.triangle_part.assign(whole.triangle_part.size(), 0);
+  const Shape found = segment(whole);
+  CHECK(found.part_count() == shape.part_count());
+  std::set<std::int32_t> seen;
+  for (const std::set<std::int32_t>& pieces : pieces_of_boxes(shape, found.triangle_part)) {
+    CHECK(pieces.size() == 1);
+    seen.insert(pieces.begin(), pieces.end());
+  }
+  CHECK(seen.size() == boxes.size());
+}
+
+/// A table whose rails hide its underside from the rim of its top.
+const std::vector<solids::GridBox> railed_table{
+    {{0, 0, 20}, {32, 24, 22}},  {{4, 4, 0}, {7, 7, 20}},     {{25, 4, 0}, {28, 7, 20}},
+    {{4, 17, 0}, {7, 20, 20}},   {{25, 17, 0}, {28, 20, 20}}, {{7, 5, 15}, {25, 6, 20}},
+    {{7, 18, 15}, {25, 19, 20}}, {{5, 7, 15}, {6, 17, 20}},   {{26, 7, 15}, {27, 17, 20}}};
+
+/// Thick walls and a floor without a lid.
+Shape open_box() {
+  return solids::grid_union({{{0, 0, 0}, {20, 14, 2}},
+                             {{0, 0, 2}, {2, 14, 10}},
+                             {{18, 0, 2}, {20, 14, 10}},
+                             {{2, 0, 2}, {18, 2, 10}},
+                             {{2, 12, 2}, {18, 14, 10}}});
+}
+
+}  // namespace
+
+TEST_CASE("a union of bars is cut along its concave edges into the bars") {
+  // One lies across the other.
+  check_cut_into_boxes({{{0, 8, 10}, {40, 11, 13}}, {{18, 0, 7}, {22, 20, 10}}});
+  check_cut_into_boxes(railed_table);
+}
+
+TEST_CASE("the underside of a table belongs to its top, wherever rails surround it") {
+  const Shape shape = solids::grid_union(railed_table);
+  const detail::SurfaceGraph graph = detail::surface_graph(shape);
+  const Pieces regions = detail::convex_regions(graph);
+  CHECK(pieces_of_boxes(shape, regions).front().size() == 2);
+  const std::vector<detail::SurfaceLink> walls = detail::wall_links(shape, graph);
+  CHECK(walls.size() == detail::wall_places);
+  const Pieces bodies = detail::joined_across_walls(graph, regions, walls, 0);
+  CHECK(pieces_of_boxes(shape, bodies).front().size() == 1);
+  detail::ConvexRegionRule never;
+  never.min_shared_wall = 1.01;
+  const Pieces apart = detail::joined_across_walls(graph, regions, walls, 0, never);
+  CHECK(pieces_of_boxes(shape, apart).front().size() == 2);
+}
+
+TEST_CASE("an open box keeps its floor: it is one body on both sides of the wall") {
+  const Shape shape = open_box();
+  const detail::SurfaceGraph graph = detail::surface_graph(shape);
+  const Pieces regions = detail::convex_regions(graph);
+  CHECK(*std::max_element(regions.begin(), regions.end()) == 1);
+  const std::vector<detail::SurfaceLink> walls = detail::wall_links(shape, graph);
+  const Pieces bodies = detail::joined_across_walls(graph, regions, walls, 0);
+  CHECK(std::all_of(bodies.begin(), bodies.end(), [](std::int32_t body) { return body == 0; }));
+  // Whatever else cuts it, the floor goes with what is below it.
+  const std::vector<detail::SurfaceLink> inner = detail::inner_walls(graph, regions, walls, 0);
+  Pieces pieces(regions.size());
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    const Eigen::Vector3d centre = graph.centres.row(static_cast<Eigen::Index>(t));
+    pieces[t] = centre.z() == 0 ? 7 : 3;
+  }
+  const Pieces placed = detail::with_inner_sides(pieces, regions, inner);
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    const Eigen::Vector3d centre = graph.centres.row(static_cast<Eigen::Index>(t));
+    CHECK(placed[t] == (centre.z() == 0 || centre.z() == 2 ? 7 : 3));
+  }
+  CHECK(detail::inner_walls(graph, regions, walls, graph.areas.sum()).empty());
+}
+
+TEST_CASE("sheets and rough surfaces have no bodies between concave edges") {
+  const Shape solid = solids::grid_union(railed_table);
+  Shape rough = solid;
+  solids::Random random(4);
+  for (Eigen::Index v = 0; v < rough.vertex_count(); ++v)
+    rough.vertices.row(v) += 0.45 * random.in_cube().transpose();
+  const Pieces regions = detail::convex_regions(detail::surface_graph(rough));
+  CHECK(*std::max_element(regions.begin(), regions.end()) == 0);
+
+  const detail::SurfaceGraph graph = detail::surface_graph(solid);
+  const Pieces bodies = detail::joined_across_walls(graph, detail::convex_regions(graph), {}, 0);
+  CHECK(*std::max_element(bodies.begin(), bodies.end()) == 0);
+}
+
+TEST_CASE("a frame with flush faces is cut into a rail and two equal legs") {
+  check_cut_into_boxes({{{0, 0, 30}, {40, 8, 33}},
+                        {{2, 0, 27}, {5, 24, 30}},
+                        {{2, 2, 0}, {5, 6, 27}},
+                        {{2, 18, 0}, {5, 22, 27}},
+                        {{35, 0, 27}, {38, 24, 30}},
+                        {{35, 2, 0}, {38, 6, 27}},
+                        {{35, 18, 0}, {38, 22, 27}}});
+}
+
+TEST_CASE("a triangle without height takes its normal from the surface beside it") {
+  // The edge from (0, 0, 0) to (1, 0, 0) of a box has a third corner just off it, as rounding leaves it.
+  Shape shape = solids::box({0, 0, 0}, {1, 1, 1});
+  const auto is_edge = [&](Eigen::Index t, int k) {
+    const Eigen::Vector3d a = shape.corner(t, k), b = shape.corner(t, (k + 1) % 3);
+    return a.tail<2>().isZero(0) && b.tail<2>().isZero(0) && a != b;
+  };
+  Eigen::Index triangle = -1;
+  int side = 0;
+  for (Eigen::Index t = 0; t < shape.triangle_count() && triangle < 0; ++t)
+    for (int k = 0; k < 3; ++k)
+      if (is_edge(t, k)) triangle = t, side = k;
+  REQUIRE(triangle >= 0);
+  const Eigen::Index v = shape.vertices.rows(), t = shape.triangles.rows();
+  shape.vertices.conservativeResize(v + 1, 3);
+  shape.vertices.row(v) << 0.5, 1e-6, -1e-6;
+  const Eigen::RowVector3i corners = shape.triangles.row(triangle);
+  const auto add = [&](int a, int b, int c) {
+    const Eigen::Index row = shape.triangles.rows();
+    shape.triangles.conservativeResize(row + 1, 3);
+    shape.triangles.row(row) << a, b, c;
+    shape.triangle_part.push_back(0);
+  };
+  const int a = corners(side), b = corners((side + 1) % 3), c = corners((side + 2) % 3);
+  const int mid = static_cast<int>(v);
+  shape.triangles.row(triangle) << a, mid, c;
+  add(mid, b, c);
+  add(a, b, mid);
+  const detail::SurfaceGraph graph = detail::surface_graph(shape);
+  const Eigen::Index flat = t + 1;
+  REQUIRE(graph.areas(flat) < 1e-6);
+  bool beside = false;
+  for (Eigen::Index other = 0; other < t; ++other)
+    if (other != triangle)
+      for (int k = 0; k < 3; ++k)
+        if (is_edge(other, k)) beside |= graph.normals.row(other) == graph.normals.row(flat);
+  CHECK(beside);
+}
