@@ -38,18 +38,26 @@ Pieces ends_of(const Pieces& regions, const Pieces& pieces, const std::vector<Su
   return ends;
 }
 
+bool is_sharp(const SurfaceLink& link, const ConvexRegionRule& rule) {
+  return link.bend <= -rule.min_bend * std::numbers::pi / 180;
+}
+
 }  // namespace
 
+bool has_sharp_concave_edges(const SurfaceGraph& graph, const ConvexRegionRule& rule) {
+  return std::any_of(graph.links.begin(), graph.links.end(),
+                     [&](const SurfaceLink& link) { return is_sharp(link, rule); });
+}
+
 Pieces convex_regions(const SurfaceGraph& graph, const ConvexRegionRule& rule) {
-  const double min_bend = rule.min_bend * std::numbers::pi / 180;
   DisjointSets sets(static_cast<std::size_t>(graph.size()));
   for (const SurfaceLink& link : graph.links)
-    if (link.bend > -min_bend) sets.join(at(link.a), at(link.b));
+    if (!is_sharp(link, rule)) sets.join(at(link.a), at(link.b));
   Pieces regions = sets.numbers();
   double all = 0, inside = 0;
   for (const SurfaceLink& link : graph.links) {
     all += link.length;
-    if (link.bend <= -min_bend && regions[at(link.a)] == regions[at(link.b)]) inside += link.length;
+    if (is_sharp(link, rule) && regions[at(link.a)] == regions[at(link.b)]) inside += link.length;
   }
   if (inside > rule.max_inside * all) std::fill(regions.begin(), regions.end(), 0);
   return regions;

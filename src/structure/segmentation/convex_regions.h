@@ -23,6 +23,9 @@ struct ConvexRegionRule {
   int max_regions = 64;
 };
 
+/// Returns whether an edge bends inwards by `min_bend` of the rule or more.
+bool has_sharp_concave_edges(const SurfaceGraph& graph, const ConvexRegionRule& rule = {});
+
 /// Returns the region of every triangle, from 0: what sharp concave edges bound all around (the minima rule,
 /// Hoffman and Richards 1984). The union of convex bodies has one region per body that is not flush with
 /// another one, and one more per side of a body that others hide from each other. Returns all zeros for rough

@@ -96,6 +96,13 @@ void keep_together(const std::vector<char>& body, std::vector<std::int32_t>& par
     if (body[t]) part[t] = number;
 }
 
+/// One generalized cylinder represents a body of revolution, whatever its profile. A cut, such as that of a
+/// hat into crown and brim, would only add joints.
+bool is_body_of_revolution(const Shape& shape) {
+  return detail::surface_graph(shape).areas.sum() > 0 &&
+         detail::revolution_axis(detail::FitSurface(shape)).has_value();
+}
+
 /// What cuts a component first.
 enum class CutsBy { concave_edges, fitting };
 
@@ -116,7 +123,9 @@ class ComponentCutter {
       link_shells(graph_, component_);
       return tidied(graph_, detail::shape_diameter_parts(component_, graph_, options_.parts));
     }
-    if (options_.parts > 0 || by == CutsBy::fitting) return tidied(graph_, fit(component_, graph_));
+    // A step in the profile of a body of revolution, such as a foot ring, is a concave edge all around.
+    if (options_.parts > 0 || by == CutsBy::fitting || is_body_of_revolution(component_))
+      return tidied(graph_, fit(component_, graph_));
     const std::vector<detail::SurfaceLink> walls = detail::wall_links(component_, graph_);
     const std::vector<std::int32_t> regions = detail::convex_regions(graph_);
     const std::vector<std::int32_t> bodies = detail::joined_across_walls(graph_, regions, walls, min_area_);
@@ -156,20 +165,29 @@ class ComponentCutter {
   /// Cuts what concave edges bound as the component would be cut, and what is left of it into members.
   std::vector<std::int32_t> cut_body(const Shape& body) const {
     detail::SurfaceGraph graph = detail::surface_graph(body);
-    if (!is_cut(body)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
-    std::vector<std::int32_t> part = fit(body, graph);
+    std::vector<std::int32_t> part(static_cast<std::size_t>(graph.size()), 0);
+    if (!may_be_cut(body)) return part;
+    part = fit(body, graph);
     part = tidied(graph, std::move(part));
     return cut_each(body, part, [&](const Shape& piece) {
-      if (!is_cut(piece)) return std::vector<std::int32_t>(piece.triangle_part.size(), 0);
-      return detail::members(
-          piece, [&](const Shape& of) { return ComponentCutter(of, options_).run(CutsBy::fitting); });
+      if (!may_be_cut(piece)) return std::vector<std::int32_t>(piece.triangle_part.size(), 0);
+      const auto fitted = [&](const Shape& of) { return ComponentCutter(of, options_).run(CutsBy::fitting); };
+      return detail::members(piece, fitted, rule_for(piece));
     });
   }
 
-  /// Returns whether a piece of the component is large enough to be cut, and no single primitive.
-  bool is_cut(const Shape& piece) const {
+  /// Returns whether a piece of the component is large enough to be cut, and more than a single primitive.
+  bool may_be_cut(const Shape& piece) const {
     return detail::surface_graph(piece).areas.sum() > 0 && !detail::is_small(piece, whole_.diagonal) &&
-           detail::may_have_members(fit_primitive(piece));
+           detail::may_have_members(fit_primitive(piece), rule_for(piece));
+  }
+
+  /// A piece with sharp concave edges, such as bars with flush faces, may have members however well one
+  /// primitive represents it.
+  static detail::MemberRule rule_for(const Shape& piece) {
+    detail::MemberRule rule;
+    if (detail::has_sharp_concave_edges(detail::surface_graph(piece))) rule.misfit = 0;
+    return rule;
   }
 
   const Shape& component_;
@@ -258,13 +276,6 @@ Shape cut_symmetrically(const Shape& shape, const SegmentationOptions& options,
   std::vector<std::vector<std::int32_t>> pieces = {result.triangle_part};
   detail::make_symmetric({whole}, symmetry_relations(whole, symmetries()), options.min_part_area, pieces);
   return with_parts_by_area(shape, pieces.front());
-}
-
-/// One generalized cylinder represents a body of revolution, whatever its profile. A cut, such as that of a
-/// hat into crown and brim, would only add joints.
-bool is_body_of_revolution(const Shape& shape) {
-  return detail::surface_graph(shape).areas.sum() > 0 &&
-         detail::revolution_axis(detail::FitSurface(shape)).has_value();
 }
 
 }  // namespace

@@ -127,6 +127,17 @@ TEST_CASE("a frame with flush faces is cut into a rail and two equal legs") {
                         {{35, 18, 0}, {38, 22, 27}}});
 }
 
+TEST_CASE("bars with flush faces are cut where they bend inwards, however slender the whole is") {
+  CHECK_FALSE(detail::has_sharp_concave_edges(detail::surface_graph(solids::box({0, 0, 0}, {9, 2, 1}))));
+  CHECK(detail::has_sharp_concave_edges(detail::surface_graph(open_box())));
+  // A long bar with a short one at each end is a cuboid to 3 % of its diagonal. It lies on two blocks.
+  check_cut_into_boxes({{{4, 8, 4}, {76, 10, 6}},
+                        {{0, 2, 4}, {4, 16, 6}},
+                        {{76, 2, 4}, {80, 16, 6}},
+                        {{1, 4, 0}, {3, 14, 4}},
+                        {{77, 4, 0}, {79, 14, 4}}});
+}
+
 TEST_CASE("a triangle without height takes its normal from the surface beside it") {
   // The edge from (0, 0, 0) to (1, 0, 0) of a box has a third corner just off it, as rounding leaves it.
   Shape shape = solids::box({0, 0, 0}, {1, 1, 1});
