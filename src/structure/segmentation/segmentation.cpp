@@ -166,27 +166,24 @@ class ComponentCutter {
   std::vector<std::int32_t> cut_body(const Shape& body) const {
     detail::SurfaceGraph graph = detail::surface_graph(body);
     std::vector<std::int32_t> part(static_cast<std::size_t>(graph.size()), 0);
-    if (!may_be_cut(body)) return part;
+    if (!(graph.areas.sum() > 0) || detail::is_small(body, whole_.diagonal) ||
+        !detail::may_have_members(fit_primitive(body), rule_for(graph)))
+      return part;
     part = fit(body, graph);
     part = tidied(graph, std::move(part));
     return cut_each(body, part, [&](const Shape& piece) {
-      if (!may_be_cut(piece)) return std::vector<std::int32_t>(piece.triangle_part.size(), 0);
+      if (detail::is_small(piece, whole_.diagonal))
+        return std::vector<std::int32_t>(piece.triangle_part.size(), 0);
       const auto fitted = [&](const Shape& of) { return ComponentCutter(of, options_).run(CutsBy::fitting); };
-      return detail::members(piece, fitted, rule_for(piece));
+      return detail::members(piece, fitted, rule_for(detail::surface_graph(piece)));
     });
-  }
-
-  /// Returns whether a piece of the component is large enough to be cut, and more than a single primitive.
-  bool may_be_cut(const Shape& piece) const {
-    return detail::surface_graph(piece).areas.sum() > 0 && !detail::is_small(piece, whole_.diagonal) &&
-           detail::may_have_members(fit_primitive(piece), rule_for(piece));
   }
 
   /// A piece with sharp concave edges, such as bars with flush faces, may have members however well one
   /// primitive represents it.
-  static detail::MemberRule rule_for(const Shape& piece) {
+  static detail::MemberRule rule_for(const detail::SurfaceGraph& graph) {
     detail::MemberRule rule;
-    if (detail::has_sharp_concave_edges(detail::surface_graph(piece))) rule.misfit = 0;
+    if (detail::has_sharp_concave_edges(graph)) rule.misfit = 0;
     return rule;
   }
 
@@ -198,7 +195,7 @@ class ComponentCutter {
 };
 
 Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& component,
-                     const SegmentationOptions& options, CutsBy by = CutsBy::concave_edges) {
+                     const SegmentationOptions& options, CutsBy by) {
   return with_parts_by_area(shape, cut_each(shape, component, [&](const Shape& part) {
                               return ComponentCutter(part, options).run(by);
                             }));
@@ -270,7 +267,7 @@ Shape with_members(const Shape& shape, const SegmentationOptions& options,
 Shape cut_symmetrically(const Shape& shape, const SegmentationOptions& options,
                         const detail::SymmetrySource& symmetries) {
   const std::vector<std::int32_t> one_component(shape.triangle_part.size(), 0);
-  Shape result = cut_components(shape, one_component, options);
+  Shape result = cut_components(shape, one_component, options, CutsBy::concave_edges);
   if (result.part_count() == 1) return result;
   const Shape whole = with_parts_by_area(shape, one_component);
   std::vector<std::vector<std::int32_t>> pieces = {result.triangle_part};
@@ -306,7 +303,7 @@ Shape detail::segment(const Shape& shape, const SegmentationOptions& options,
     return with_parts_by_area(shape, component);
   // A number of parts that is asked for is kept.
   if (count_of(component) == 1 && options.parts == 0) return cut_symmetrically(shape, options, symmetries);
-  return cut_components(shape, component, options);
+  return cut_components(shape, component, options, CutsBy::concave_edges);
 }
 
 }  // namespace stackabilization
