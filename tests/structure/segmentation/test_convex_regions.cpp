@@ -7,6 +7,7 @@
 #include "stackabilization/structure/segmentation.h"
 #include "structure/segmentation/chords.h"
 #include "structure/segmentation/convex_regions.h"
+#include "structure/segmentation/members.h"
 #include "structure/segmentation/surface_graph.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -136,6 +137,33 @@ TEST_CASE("bars with flush faces are cut where they bend inwards, however slende
                         {{76, 2, 4}, {80, 16, 6}},
                         {{1, 4, 0}, {3, 14, 4}},
                         {{77, 4, 0}, {79, 14, 4}}});
+}
+
+TEST_CASE("the solid behind a place does not end where another shell begins") {
+  const Shape nested = concatenate(solids::box({0, 0, 0}, {4, 4, 4}), solids::box({1, 1, 1}, {3, 3, 3}));
+  const detail::SurfaceGraph graph = detail::surface_graph(nested);
+  const std::vector<detail::SurfaceLink> walls = detail::wall_links(nested, graph);
+  // Rays from a quarter of each outer face meet the inner box, of a fifth of the area.
+  CHECK(static_cast<double>(walls.size()) == Approx(detail::wall_places * (0.8 * 0.75 + 0.2)).epsilon(0.02));
+  for (const detail::SurfaceLink& wall : walls)
+    CHECK(nested.triangle_part[static_cast<std::size_t>(wall.a)] ==
+          nested.triangle_part[static_cast<std::size_t>(wall.b)]);
+}
+
+TEST_CASE("two feet whose faces are flush for a little below a column are two members") {
+  const std::vector<solids::GridBox> boxes{
+      {{4, 7, 1}, {16, 11, 30}}, {{0, 8, 0}, {10, 10, 2}}, {{10, 8, 0}, {20, 10, 2}}};
+  const Shape feet = solids::grid_union(boxes);
+  Shape whole = feet;
+  whole.part_names = {"whole"};
+  whole.triangle_part.assign(whole.triangle_part.size(), 0);
+  const auto into_boxes = [&](const Shape&) { return feet.triangle_part; };
+  CHECK(pieces_of_boxes(feet, detail::members(whole, into_boxes)) ==
+        std::vector<std::set<std::int32_t>>{{0}, {1}, {2}});
+  detail::MemberRule any;
+  any.little_border = 0;
+  CHECK(pieces_of_boxes(feet, detail::members(whole, into_boxes, any)) ==
+        std::vector<std::set<std::int32_t>>{{0}, {1}, {1}});
 }
 
 TEST_CASE("a triangle without height takes its normal from the surface beside it") {
