@@ -166,6 +166,24 @@ TEST_CASE("two feet whose faces are flush for a little below a column are two me
         std::vector<std::set<std::int32_t>>{{0}, {1}, {1}});
 }
 
+TEST_CASE("a part with more bodies than members is cut by fitting alone") {
+  std::vector<solids::GridBox> boxes{{{0, 0, 0}, {40, 40, 2}}, {{0, 0, 2}, {40, 2, 40}}};
+  for (int k = 0; k < 18; ++k) {
+    const int x = 2 + 6 * (k % 6), y = 8 + 10 * (k / 6);
+    boxes.push_back({{x, y, 2}, {x + 3, y + 3, 5}});
+  }
+  Shape pegged = solids::grid_union(boxes);
+  pegged.part_names = {"whole"};
+  pegged.triangle_part.assign(pegged.triangle_part.size(), 0);
+  SegmentationOptions options;
+  options.method = SegmentationMethod::primitives;
+  CHECK(segment(pegged, options).part_count() > detail::MemberRule().max_members);
+  options.method = SegmentationMethod::members;
+  const Shape found = segment(pegged, options);
+  CHECK(found.part_count() > 1);
+  CHECK(found.part_count() <= detail::MemberRule().max_members);
+}
+
 TEST_CASE("a triangle without height takes its normal from the surface beside it") {
   // The edge from (0, 0, 0) to (1, 0, 0) of a box has a third corner just off it, as rounding leaves it.
   Shape shape = solids::box({0, 0, 0}, {1, 1, 1});
