@@ -1,6 +1,5 @@
 #include "deformation/controllers/vertex_shares.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <set>
 
 #include "core/index.h"
+#include "deformation/controllers/seam_end.h"
 #include "deformation/model/joint_slides.h"
 #include "deformation/model/straight_curve.h"
 #include "mesh/surface_moments.h"
@@ -59,12 +59,14 @@ class Shares {
         smooth_(smooth),
         owners_(at(static_cast<int>(shape.vertex_count()))),
         triangles_(shape.part_names.size()),
+        vertices_(triangles_.size()),
         boxes_(triangles_.size()) {
     for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
       const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
       triangles_[at(part)].push_back(t);
       for (int k = 0; k < 3; ++k) {
         owners_[at(shape.triangles(t, k))].insert(part);
+        vertices_[at(part)].insert(shape.triangles(t, k));
         boxes_[at(part)].extend(shape.corner(t, k));
       }
     }
@@ -77,11 +79,13 @@ class Shares {
     for (std::size_t v = 0; v < owners_.size(); ++v)
       for (const int part : owners_[v]) shares[v][part] = 1;
     const std::map<int, std::vector<Seam>> seams = seams_of_parts();
+    std::vector<Weights> kept(owners_.size());
     for (const auto& [part, of_part] : seams) {
       const Edges edges = edges_of(part);
-      for (const Seam& seam : of_part) spread(seam, edges, shares);
+      for (const Seam& seam : of_part) spread(seam, edges, shares, kept);
     }
     for (std::size_t v = 0; v < owners_.size(); ++v) {
+      for (const auto& [part, share] : kept[v]) shares[v][part] *= share;
       double sum = 0;
       for (const auto& [part, share] : shares[v]) sum += share;
       // Parts that are attached to each other in a ring own their common vertices in equal shares.
@@ -132,15 +136,19 @@ class Shares {
     return pieces;
   }
 
-  /// Extends the weight of the other part at a seam into the part. `edges`: of the part.
-  void spread(const Seam& seam, const Edges& edges, std::vector<Weights>& shares) const {
+  /// Extends the weight of the other part at a seam into the part. `edges`: of the part; `kept`: factors that
+  /// parts keep of their own weights.
+  void spread(const Seam& seam, const Edges& edges, std::vector<Weights>& shares,
+              std::vector<Weights>& kept) const {
     if (seam.lead < -attached) return;
     const double reach = blended_reach(seam) * smaller_diagonal(seam);
     for (const auto& [vertex, distance] : distances(edges, seam.vertices, reach)) {
       const double weight = fall_off(distance / reach);
+      if (seam.lead > attached) kept[at(vertex)].try_emplace(seam.part, 1).first->second *= 1 - weight;
+      // What a part shares with another carrier follows that one alone.
+      if (seam.lead > attached && distance > 0 && owners_[at(vertex)].size() > 1) continue;
       double& share = shares[at(vertex)][seam.other];
       share = std::max(share, weight);
-      if (seam.lead > attached) shares[at(vertex)][seam.part] *= 1 - weight;
     }
   }
 
@@ -190,9 +198,10 @@ class Shares {
     Eigen::AlignedBox3d box;
     for (const int vertex : seam.vertices) box.extend(shape_.vertices.row(vertex).transpose());
     SeamReach reach;
-    reach.carried = {seam.other, seam.part, middle_of(seam.vertices), Eigen::Vector3d::Zero(), {}, {}};
     reach.around = reach_of_seams * smaller;
     reach.trim = std::min(box.diagonal().norm(), reach.around);
+    reach.carried = {
+        seam.other, seam.part, middle_of(seam.vertices), reach.trim * end_at(seam, seam.other).axis, {}, {}};
     reach.on_carrier = distances(edges_of(seam.part), seam.vertices, reach.around);
     reach.on_attached =
         distances(edges_of(seam.other), seam.vertices, std::max(reach.trim, curved_reach_of_parts * smaller));
@@ -221,17 +230,14 @@ class Shares {
   /// slide with the seam. Those of other seams follow these.
   void trim(SeamReach& reach, const Nearness& nearness, const std::vector<Weights>& shares) const {
     CarriedSeam& seam = reach.carried;
-    std::vector<int> near;
     for (const auto& [vertex, distance] : reach.on_attached) {
-      if (!(distance > 0) || owners_[at(vertex)].contains(seam.carrier)) continue;
-      if (distance < reach.trim) near.push_back(vertex);
+      if (owners_[at(vertex)].size() > 1) continue;
       const double own = shepard_weight(distance) / nearness.at(vertex);
       const double whole = own * share_of(shares[at(vertex)], seam.carrier),
                    along = own * fall_off(distance / reach.trim);
       if (whole > 0) seam.around.emplace_back(vertex, whole);
       if (along > whole) seam.trimmed.emplace_back(vertex, along - whole);
     }
-    if (!near.empty()) seam.axis = middle_of(near) - seam.point;
   }
 
   Eigen::Vector3d middle_of(const std::vector<int>& vertices) const {
@@ -273,7 +279,11 @@ class Shares {
       if (distance < least) nearest = &relation, least = distance;
     }
     if (nearest && slides_whole(*nearest)) return nearest->carrier == seam.other ? 1 : -1;
-    return lead_of(place_on(seam.part, seam.vertices), place_on(seam.other, seam.vertices));
+    const double ends = end_at(seam, seam.part).share - end_at(seam, seam.other).share;
+    if (std::abs(ends) > attached) return ends;
+    // Neither ends there, or both do: the smaller one is attached, as a handle along its side.
+    const double own = diagonal_of(seam.part), other = diagonal_of(seam.other);
+    return (other - own) / std::max(own, other);
   }
 
   static bool slides_whole(const Relation& joint) {
@@ -282,33 +292,11 @@ class Shares {
     return true;
   }
 
-  /// Where a seam lies on a part.
-  struct Place {
-    double nearness = 0;  ///< to an end: 0 in the middle, 1 at an end
-    double length = 0;    ///< along the axis of the part, share of the size of the seam
-  };
-
-  /// The seam lies nearer to the end of a part or, where it is as near to that of the other, across its axis,
-  /// and along that of the other.
-  static double lead_of(const Place& own, const Place& other) {
-    const double nearer = own.nearness - other.nearness;
-    return std::abs(nearer) > attached ? nearer : other.length - own.length;
-  }
-
-  Place place_on(int part, const std::vector<int>& seam) const {
-    const Points points = control_points(smooth_->parts[at(part)].primitive);
-    const Eigen::RowVector3d middle = points.colwise().mean();
-    const Eigen::Matrix3d spread = (points.rowwise() - middle).transpose() * (points.rowwise() - middle);
-    const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-    const Points places = shape_.vertices(seam, Eigen::all);
-    const Eigen::RowVector3d size = places.colwise().maxCoeff() - places.colwise().minCoeff();
-    const Eigen::VectorXd heights = (places.rowwise() - middle) * axis;
-    const Eigen::VectorXd own = (points.rowwise() - middle) * axis;
-    const double half = own.cwiseAbs().maxCoeff();
-    Place place;
-    place.nearness = std::min(std::abs(heights.mean()) / half, 1.0);
-    if (size.norm() > 0) place.length = (heights.maxCoeff() - heights.minCoeff()) / size.norm();
-    return place;
+  SeamEnd end_at(const Seam& seam, int part) const {
+    const std::set<int>& own = vertices_[at(part)];
+    return seam_end(smooth_->parts[at(part)].primitive,
+                    shape_.vertices(std::vector<int>(own.begin(), own.end()), Eigen::all),
+                    shape_.vertices(seam.vertices, Eigen::all));
   }
 
   Edges edges_of(int part) const {
@@ -323,8 +311,10 @@ class Shares {
   }
 
   double smaller_diagonal(const Seam& seam) const {
-    return std::min(boxes_[at(seam.part)].diagonal().norm(), boxes_[at(seam.other)].diagonal().norm());
+    return std::min(diagonal_of(seam.part), diagonal_of(seam.other));
   }
+
+  double diagonal_of(int part) const { return boxes_[at(part)].diagonal().norm(); }
 
   /// Returns the distances along the edges from the vertices `from`, up to `most`, by the algorithm of
   /// Dijkstra.
@@ -348,6 +338,7 @@ class Shares {
   const Structure* smooth_;
   std::vector<std::set<int>> owners_;                 ///< parts whose triangles use the vertex
   std::vector<std::vector<Eigen::Index>> triangles_;  ///< per part
+  std::vector<std::set<int>> vertices_;               ///< per part
   std::vector<Eigen::AlignedBox3d> boxes_;            ///< per part
 };
 

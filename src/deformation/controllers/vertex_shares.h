@@ -18,7 +18,7 @@ using SharedVertices = std::vector<std::pair<int, double>>;
 struct CarriedSeam {
   int attached = 0, carrier = 0;
   Eigen::Vector3d point;  ///< mean of the vertices of the seam at rest
-  Eigen::Vector3d axis;   ///< from there into the attached part; 0 where it has no other vertices nearby
+  Eigen::Vector3d axis;   ///< from there into the attached part, along it; 0 where it has no end there
   /// Vertices around the seam, ascending, with the share that they make of what the attached part moves
   /// against the carrier at `point`: a joint that slides takes the surface of the carrier along. Those of the
   /// attached part are the ones that follow the carrier.

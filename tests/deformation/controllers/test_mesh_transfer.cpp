@@ -157,6 +157,47 @@ TEST_CASE("in smooth designs a border follows the part that does not end there")
   }
 }
 
+TEST_CASE(
+    "in smooth designs a vertex of three parts follows the one that is attached to none of the others") {
+  // Around vertex 0: a board, a leg that is attached to it, and a beam that is attached to both. Vertex 4 is
+  // on the border of board and beam, near the leg.
+  StructuredShape rest;
+  rest.shape.vertices.resize(5, 3);
+  rest.shape.vertices << 0, 0, 0, 4, 0, 0, 0, 4, 0, -4, -4, 0, 0.05, 0, 0;
+  rest.shape.triangles.resize(5, 3);
+  rest.shape.triangles << 0, 4, 2, 4, 1, 2, 0, 2, 3, 0, 3, 4, 4, 3, 1;
+  rest.shape.triangle_part = {0, 0, 1, 2, 2};
+  rest.shape.part_names = {"board", "leg", "beam"};
+  rest.structure.diagonal = 12;
+  for (const std::string& name : rest.shape.part_names)
+    rest.structure.parts.push_back(
+        {name, cuboid_of({{0, 0, 0}, Eigen::Matrix3d::Identity(), {4, 4, 1}}), {}});
+  const auto join = [&](int carrier, int attached, const Eigen::RowVector3d& point) {
+    Relation joint;
+    joint.type = RelationType::point_joint;
+    joint.parts = {carrier, attached};
+    joint.points = point;
+    joint.carrier = carrier;
+    joint.sliding = {{true, true, false}};
+    rest.structure.relations.push_back(joint);
+  };
+  join(0, 1, {0, 2, 0});
+  join(0, 2, {2, 0, 0});
+  join(1, 2, {-2, -2, 0});
+  const Rig rig(rest.structure);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  // The leg leans about the middle of its border with the board.
+  auto& corners = std::get<Cuboid>(now[1]).corners;
+  const Eigen::RowVector3d joint(0, 2, 0);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 0, 1).normalized()).toRotationMatrix();
+  corners = (((corners.rowwise() - joint) * turn.transpose()).rowwise() + joint).eval();
+  const Points moved = MeshTransfer(rest.shape, rig, Following::smooth).vertices(rig, now);
+  for (const int vertex : {0, 1, 2, 4})
+    CHECK((moved.row(vertex) - rest.shape.vertices.row(vertex)).norm() < 1e-14);
+  CHECK((moved.row(3) - rest.shape.vertices.row(3)).norm() > 0.5);
+}
+
 TEST_CASE("in smooth designs two halves that meet end to end own their border together") {
   const StructuredShape halves = sheet();
   const MeshTransfer both(halves.shape, Rig(halves.structure), Following::smooth);
