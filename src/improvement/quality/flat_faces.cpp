@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <utility>
 
 #include "core/angles.h"
 #include "core/index.h"
@@ -18,6 +20,11 @@ namespace {
 
 /// Largest number of faces of a part that are looked at.
 constexpr std::size_t max_faces = 64;
+/// Largest distance of faces in one plane, fraction of the square root of the smaller area.
+constexpr double near_plane = 0.1;
+/// Least share of the probes of a face whose other end is on the face opposite, where both are the sides of a
+/// wall: most of them. The floor and two other walls of a crate are between its opposite walls, too.
+constexpr double wall_share = 0.5;
 
 /// Neighbours across edges, for some triangles of a mesh.
 class EdgeNeighbours {
@@ -53,7 +60,18 @@ FlatFace face_of(const Shape& shape, const std::vector<std::int32_t>& triangles,
   std::sort(face.vertices.begin(), face.vertices.end());
   face.vertices.erase(std::unique(face.vertices.begin(), face.vertices.end()), face.vertices.end());
   face.deviation = face.deviation_on(shape);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Index v : face.vertices) box.extend(shape.vertices.row(v).transpose());
+  face.width = face.area / box.diagonal().norm();
   return face;
+}
+
+/// Returns whether two parallel faces lie in one plane, or nearly for their size.
+bool in_one_plane(const Shape& shape, const FlatFace& one, const FlatFace& other) {
+  const Eigen::RowVector3d between = shape.vertices(other.vertices, Eigen::all).colwise().mean() -
+                                     shape.vertices(one.vertices, Eigen::all).colwise().mean();
+  return std::abs(one.area_vector(shape).stableNormalized().dot(between)) <=
+         near_plane * std::sqrt(std::min(one.area, other.area));
 }
 
 }  // namespace
@@ -117,6 +135,27 @@ std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<
       if (angle <= tolerance::quality::coplanar) pairs.push_back({a, b, angle});
     }
   return pairs;
+}
+
+void remove_pairs_across_air(const Shape& shape, const std::vector<FlatFace>& faces,
+                             const std::vector<ThicknessProbe>& probes, std::vector<ParallelFaces>& pairs) {
+  std::map<std::int32_t, std::size_t> face_of;
+  for (std::size_t face = 0; face < faces.size(); ++face)
+    for (const std::int32_t t : faces[face].triangles) face_of[t] = face;
+  std::vector<double> probed(faces.size());
+  std::map<std::pair<std::size_t, std::size_t>, double> shared;
+  for (const ThicknessProbe& probe : probes) {
+    const auto near = face_of.find(probe.near_triangle), far = face_of.find(probe.far_triangle);
+    if (near == face_of.end() || far == face_of.end()) continue;
+    ++probed[near->second];
+    ++probed[far->second];
+    ++shared[std::minmax(near->second, far->second)];
+  }
+  std::erase_if(pairs, [&](const ParallelFaces& pair) {
+    const double fewer = std::min(probed[pair.first], probed[pair.second]);
+    return fewer > 0 && shared[{pair.first, pair.second}] < wall_share * fewer &&
+           !in_one_plane(shape, faces[pair.first], faces[pair.second]);
+  });
 }
 
 }  // namespace stackabilization::detail

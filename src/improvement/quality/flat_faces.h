@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "improvement/quality/thickness.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/shape.h"
 
@@ -16,6 +17,7 @@ struct FlatFace {
   std::vector<double> sides;            ///< per triangle, 1 if it faces as the first one, else -1
   std::vector<Eigen::Index> vertices;   ///< different corners, rows of Shape::vertices
   double area = 0;                      ///< model units squared
+  double width = 0;                     ///< area by length, model units
   double deviation = 0;                 ///< distance of a corner from the plane at rest, model units
 
   /// Returns the sum of the vector areas of the triangles on `shape`, all facing as the first one at rest,
@@ -31,11 +33,18 @@ struct FlatFace {
 std::vector<FlatFace> flat_faces(const Shape& shape, const WeldedMesh& mesh,
                                  const std::vector<std::int32_t>& triangles, double min_share);
 
-/// Returns the pairs of faces of one part that are parallel, with the angle between them, radians.
+/// A pair of faces of one part that are parallel.
 struct ParallelFaces {
   std::size_t first = 0, second = 0;
   double angle = 0;  ///< at rest, radians
 };
+/// Returns the pairs of faces of one part that are parallel, within tolerance::quality::coplanar.
 std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<FlatFace>& faces);
+
+/// Removes pairs of faces of one part that lie in different planes with no material between them: opposite
+/// walls of a crate may lean, the two sides of a wall may not. `probes`: of that part, at rest. A pair of
+/// faces of which one has no probes stays.
+void remove_pairs_across_air(const Shape& shape, const std::vector<FlatFace>& faces,
+                             const std::vector<ThicknessProbe>& probes, std::vector<ParallelFaces>& pairs);
 
 }  // namespace stackabilization::detail

@@ -56,19 +56,28 @@ PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded, cons
   }
   ThicknessOptions options;
   options.probes = thickness_samples;
-  std::vector<int> walls(forms_.size());  // probes that cross a wall, less those that cross the part
-  for (ThicknessProbe& probe : thickness_probes(shape, options)) {
+  std::vector<std::vector<ThicknessProbe>> of_part(forms_.size());
+  for (const ThicknessProbe& probe : thickness_probes(shape, options))
+    of_part[at(shape.triangle_part[at(probe.near_triangle)])].push_back(probe);
+  for (std::size_t part = 0; part < forms_.size(); ++part) {
+    Form& form = forms_[part];
+    remove_pairs_across_air(shape, form.faces, of_part[part], form.parallel);
+    keep_probes(shape, form, std::move(of_part[part]));
+  }
+}
+
+void PartForms::keep_probes(const Shape& shape, Form& form, std::vector<ThicknessProbe> probes) {
+  int walls = 0;  // probes that cross a wall, less those that cross the part
+  for (ThicknessProbe& probe : probes) {
     // Solid members are as thick as wide: CentreLineChange::width.
-    const int part = shape.triangle_part[at(probe.near_triangle)];
-    const Form& form = forms_[at(part)];
     const bool through = form.line && probe.at_rest > form.line->radius();
-    walls[at(part)] += through ? -1 : 1;
+    walls += through ? -1 : 1;
     if (through && form.line->is_straight()) continue;
     if (std::abs(unit_normal(shape, probe.near_triangle).dot(unit_normal(shape, probe.far_triangle))) >=
         opposite)
       probes_.push_back(std::move(probe));
   }
-  for (std::size_t part = 0; part < forms_.size(); ++part) forms_[part].hollow = walls[part] > 0;
+  form.hollow = walls > 0;
 }
 
 double PartForms::lean_of(const Eigen::Vector3d& line) const {
@@ -107,7 +116,9 @@ void PartForms::measure_faces(const Shape& now, int part, std::vector<QualityVal
   for (const ParallelFaces& pair : form.parallel) {
     const double angle = angle_between_lines(form.faces[pair.first].area_vector(now),
                                              form.faces[pair.second].area_vector(now));
-    worsen(parallelism, (angle - pair.angle) * degrees_per_radian, part);
+    // Across a narrow face a turn is not seen.
+    const double unseen = visible_ / std::min(form.faces[pair.first].width, form.faces[pair.second].width);
+    worsen(parallelism, (angle - pair.angle - unseen) * degrees_per_radian, part);
   }
 }
 

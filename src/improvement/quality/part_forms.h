@@ -38,6 +38,8 @@ class PartForms {
   static std::vector<double> stretches(const Form& form, const AffineMap& map, double length);
   void measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const;
 
+  /// Keeps the probes of a part that tell its thickness, and finds out whether it is hollow.
+  void keep_probes(const Shape& shape, Form& form, std::vector<ThicknessProbe> probes);
   /// Returns the angle between a line and up, degrees.
   double lean_of(const Eigen::Vector3d& line) const;
 

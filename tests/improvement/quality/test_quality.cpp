@@ -13,6 +13,7 @@
 #include "support/still_designs.h"
 #include "support/structures.h"
 #include "support/symmetric_solids.h"
+#include "support/voxels.h"
 
 using namespace stackabilization;
 
@@ -364,13 +365,43 @@ TEST_CASE("A round section that is squashed loses roundness, and a bulge is a pr
   CHECK(measured(rest, bulging, QualityMeasure::profile) < 0.2 * 2 / std::numbers::pi * 1.1);
 }
 
+TEST_CASE("Opposite walls of a crate may lean, the two sides of a wall may not", "[quality]") {
+  AnalysisOptions options;
+  options.segmentation.method = SegmentationMethod::whole;
+  const StructuredShape rest = analyse_structure(solids::grid_union({{{0, 0, 0}, {20, 14, 2}},
+                                                                     {{0, 0, 2}, {2, 14, 10}},
+                                                                     {{18, 0, 2}, {20, 14, 10}},
+                                                                     {{2, 0, 2}, {18, 2, 10}},
+                                                                     {{2, 12, 2}, {18, 14, 10}}}),
+                                                 options);
+  REQUIRE(rest.structure.parts.size() == 1);
+  const double degrees = 5, slope = std::tan(degrees * std::numbers::pi / 180);
+  // Walls across x lean outwards by so much, and stay as thick as they are.
+  const Shape drafted = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+    const double side = p.x() <= 2 ? -1 : p.x() >= 18 ? 1 : 0;
+    return Eigen::Vector3d(p.x() + side * slope * p.z(), p.y(), p.z());
+  });
+  CHECK(measured(rest, drafted, QualityMeasure::parallelism) == Approx(0).margin(0.01));
+  // Only the outer side of one wall leans.
+  const Shape wedge = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() == 20 ? p.x() + slope * p.z() : p.x(), p.y(), p.z());
+  });
+  // A thousandth of the diagonal across the inner side of 10 x 8 is not seen.
+  const double unseen = 0.001 * std::sqrt(20 * 20 + 14 * 14 + 10 * 10) / (80 / std::sqrt(10 * 10 + 8 * 8));
+  CHECK(measured(rest, wedge, QualityMeasure::parallelism) ==
+        Approx(degrees - unseen * 180 / std::numbers::pi));
+}
+
 TEST_CASE("A wedge has the angle between its faces, and a dent is no plane", "[quality]") {
   const StructuredShape rest = plate();
   const double degrees = 5, slope = std::tan(degrees * std::numbers::pi / 180);
   const Shape wedge = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
     return Eigen::Vector3d(p.x(), p.y(), p.z() > 0.4 ? p.z() + slope * p.x() : p.z());
   });
-  CHECK(measured(rest, wedge, QualityMeasure::parallelism) == Approx(degrees));
+  // A thousandth of the diagonal across the faces of 10 x 8 is not seen.
+  const double unseen = 0.001 * std::sqrt(10 * 10 + 8 * 8 + 1) / (80 / std::sqrt(10 * 10 + 8 * 8));
+  CHECK(measured(rest, wedge, QualityMeasure::parallelism) ==
+        Approx(degrees - unseen * 180 / std::numbers::pi));
   CHECK(measured(rest, wedge, QualityMeasure::flatness) == Approx(0).margin(1e-9));
   const Shape twisted = mapped(rest.shape, [](const Eigen::Vector3d& p) {
     return Eigen::Vector3d(p.x(), p.y(), p.z() + 0.02 * (p.x() - 5) * (p.y() - 4));
