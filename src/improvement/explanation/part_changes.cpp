@@ -32,6 +32,8 @@ constexpr double upright_cosine = 0.7071067811865476, along_cosine = 0.8, level_
 constexpr double heading_share = 0.5;
 /// Ratio of thickness to width up to which a part is a plate.
 constexpr double plate_ratio = 0.25;
+/// Least ratio of width to thickness of a slat.
+constexpr double slat_ratio = 2;
 /// Share of the two large sides of its box up to which the surface of such a part is that of a frame.
 constexpr double frame_share = 0.6;
 /// Ratio of the level sizes of a part from which on the larger one is its length.
@@ -424,9 +426,11 @@ PartChanges part_changes(const PartAtRest& part, const Shape& rest, const Shape&
 
 std::string form_noun(const PartAtRest& part, const ObjectFrame& frame) {
   if (!part.form.fit) return "part";
-  if (is_member(part, frame) && (part.high - part.low).maxCoeff() >= stout_length * part.form.line->radius())
-    return std::abs(part.form.line->direction().dot(frame.up)) >= upright_cosine ? "upright" : "bar";
   const Eigen::Vector3d box = part.high - part.low;
+  if (is_member(part, frame) && box(0) >= stout_length * part.form.line->radius()) {
+    if (std::abs(part.form.line->direction().dot(frame.up)) >= upright_cosine) return "upright";
+    return box(1) >= slat_ratio * box(2) ? "slat" : "bar";
+  }
   if (box(2) >= plate_ratio * box(1)) return "part";
   if (part.area < frame_share * 2 * box(0) * box(1)) return "frame";
   const double slope = std::abs(part.form.fit->axes().col(2).dot(frame.up));

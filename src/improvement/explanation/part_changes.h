@@ -62,8 +62,8 @@ PartChanges part_changes(const PartAtRest& part, const Shape& rest, const Shape&
 /// that is seen best.
 void leave_out_minor(std::vector<PartChanges>& parts);
 
-/// Returns what a person calls a part by its form: "upright", "bar", "panel", "board", "frame"
-/// or "part".
+/// Returns what a person calls a part by its form: "upright", "bar", "slat", "panel", "board",
+/// "frame" or "part".
 std::string form_noun(const PartAtRest& part, const ObjectFrame& frame);
 
 }  // namespace stackabilization::detail

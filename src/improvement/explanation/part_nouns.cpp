@@ -1,8 +1,9 @@
 #include "improvement/explanation/part_nouns.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <variant>
 
 #include "core/index.h"
@@ -17,6 +18,8 @@ constexpr double upright_axis = 0.9;
 constexpr double body_share = 0.5;
 /// Least height of a handle above the ground, fraction of that of the object.
 constexpr double off_ground = 0.02;
+/// Least number of legs of an object: one or two uprights are a post, or the sides of a shelf.
+constexpr std::size_t min_legs = 3;
 
 /// Returns the body of the object; -1: none.
 int body_of(const StructuredShape& rest, const std::vector<PartAtRest>& parts, const ObjectFrame& frame) {
@@ -46,24 +49,27 @@ bool hangs_on(int part, int body, const Structure& structure) {
   return joints >= 2;
 }
 
-/// Returns whether all of a part is above the ground, and the body does not pass through it as through a
-/// ring.
-bool sticks_out(const StructuredShape& rest, const PartAtRest& part, const ObjectFrame& frame, int body) {
+/// Returns whether all of a part is above the ground.
+bool is_off_ground(const StructuredShape& rest, const PartAtRest& part, const ObjectFrame& frame) {
+  const double ground = frame.ground + off_ground * frame.height;
+  return std::all_of(part.triangles.begin(), part.triangles.end(), [&](std::int32_t t) {
+    return rest.shape.corner(t, 0).dot(frame.up) >= ground &&
+           rest.shape.corner(t, 1).dot(frame.up) >= ground && rest.shape.corner(t, 2).dot(frame.up) >= ground;
+  });
+}
+
+/// Returns whether the body passes through a part as through a ring.
+bool goes_around(const StructuredShape& rest, const PartAtRest& part, const ObjectFrame& frame, int body) {
   const auto& cylinder = std::get<GeneralizedCylinder>(rest.structure.parts[at(body)].primitive);
   const Eigen::Vector3d centre = cylinder.centres.colwise().mean().transpose();
   const Eigen::Vector3d u = frame.up.unitOrthogonal(), v = frame.up.cross(u);
-  double lowest = std::numeric_limits<double>::infinity();
-  Eigen::Vector2d low(lowest, lowest), high(-lowest, -lowest);
+  Eigen::AlignedBox2d box;
   for (const std::int32_t t : part.triangles)
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = rest.shape.corner(t, k);
-      lowest = std::min(lowest, corner.dot(frame.up));
-      const Eigen::Vector2d place((corner - centre).dot(u), (corner - centre).dot(v));
-      low = low.cwiseMin(place);
-      high = high.cwiseMax(place);
+      const Eigen::Vector3d corner = rest.shape.corner(t, k) - centre;
+      box.extend(Eigen::Vector2d(corner.dot(u), corner.dot(v)));
     }
-  const bool around = (low.array() < 0).all() && (high.array() > 0).all();
-  return lowest >= frame.ground + off_ground * frame.height && !around;
+  return (box.min().array() < 0).all() && (box.max().array() > 0).all();
 }
 
 }  // namespace
@@ -72,12 +78,16 @@ std::vector<std::string> part_nouns(const StructuredShape& rest, const std::vect
                                     const ObjectFrame& frame) {
   const int body = body_of(rest, parts, frame);
   std::vector<std::string> nouns;
+  std::vector<std::size_t> legs;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto part = static_cast<int>(p);
     const bool handle = body >= 0 && part != body && hangs_on(part, body, rest.structure) &&
-                        sticks_out(rest, parts[p], frame, body);
+                        is_off_ground(rest, parts[p], frame) && !goes_around(rest, parts[p], frame, body);
     nouns.push_back(part == body ? "body" : handle ? "handle" : form_noun(parts[p], frame));
+    if (nouns.back() == "upright" && !is_off_ground(rest, parts[p], frame)) legs.push_back(p);
   }
+  if (legs.size() >= min_legs)
+    for (const std::size_t leg : legs) nouns[leg] = "leg";
   return nouns;
 }
 

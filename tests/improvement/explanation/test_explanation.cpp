@@ -212,6 +212,34 @@ TEST_CASE("A flat part without a name is a frame when it is mostly open, else a 
   }
 }
 
+TEST_CASE("Members without names are legs, uprights, slats and bars", "[explanation]") {
+  // Posts below a top, two slats and two bars on it.
+  const auto stand = [](int posts, double ground) {
+    std::vector<Shape> parts{solids::box({0, 0, 7}, {10, 10, 8})};
+    for (int k = 0; k < posts; ++k)
+      parts.push_back(solids::box({k % 2 * 9.0, k / 2 * 9.0, ground}, {k % 2 * 9.0 + 1, k / 2 * 9.0 + 1, 7}));
+    parts.push_back(solids::box({0, 2, 8}, {10, 3.5, 8.5}));
+    parts.push_back(solids::box({0, 6, 8}, {10, 6.8, 8.5}));
+    if (ground > 0) parts.push_back(solids::box({4, 4, 0}, {6, 6, 7}));
+    Shape shape = parts[0];
+    for (std::size_t k = 1; k < parts.size(); ++k) shape = concatenate(shape, parts[k]);
+    for (std::size_t k = 0; k < parts.size(); ++k) shape.part_names[k] = "part_" + std::to_string(k + 1);
+    return analyse_structure(shape);
+  };
+  const auto name_of_moved = [](const StructuredShape& rest, int part) {
+    const std::string name = "part_" + std::to_string(part);
+    const Explanation found = explain(rest, with_parts_mapped(rest.shape, name, moved({0, 0, 0.2})));
+    REQUIRE(found.groups.size() == 1);
+    return found.groups[0].name.substr(0, found.groups[0].name.find(' '));
+  };
+  const StructuredShape table = stand(4, 0);
+  CHECK(name_of_moved(table, 2) == "leg");
+  CHECK(name_of_moved(table, 6) == "slat");
+  CHECK(name_of_moved(table, 7) == "bar");
+  CHECK(name_of_moved(stand(2, 0), 2) == "upright");
+  CHECK(name_of_moved(stand(4, 0.5), 2) == "upright");
+}
+
 TEST_CASE("A mug without names has a body and a handle", "[explanation]") {
   const auto named = [](const std::vector<std::string>& names) {
     StructuredShape mug = structures::mug();
