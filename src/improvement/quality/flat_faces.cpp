@@ -139,6 +139,7 @@ std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<
 
 void remove_pairs_across_air(const Shape& shape, const std::vector<FlatFace>& faces,
                              const std::vector<ThicknessProbe>& probes, std::vector<ParallelFaces>& pairs) {
+  if (pairs.empty()) return;
   std::map<std::int32_t, std::size_t> face_of;
   for (std::size_t face = 0; face < faces.size(); ++face)
     for (const std::int32_t t : faces[face].triangles) face_of[t] = face;
@@ -146,9 +147,9 @@ void remove_pairs_across_air(const Shape& shape, const std::vector<FlatFace>& fa
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
   for (const ThicknessProbe& probe : probes) {
     const auto near = face_of.find(probe.near_triangle), far = face_of.find(probe.far_triangle);
+    if (near != face_of.end()) ++probed[near->second];
+    if (far != face_of.end()) ++probed[far->second];
     if (near == face_of.end() || far == face_of.end()) continue;
-    ++probed[near->second];
-    ++probed[far->second];
     ++shared[std::minmax(near->second, far->second)];
   }
   std::erase_if(pairs, [&](const ParallelFaces& pair) {

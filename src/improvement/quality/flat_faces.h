@@ -42,8 +42,8 @@ struct ParallelFaces {
 std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<FlatFace>& faces);
 
 /// Removes pairs of faces of one part that lie in different planes with no material between them: opposite
-/// walls of a crate may lean, the two sides of a wall may not. `probes`: of that part, at rest. A pair of
-/// faces of which one has no probes stays.
+/// walls of a crate may lean, the two sides of a wall may not. `probes`: of the whole shape, at rest. A pair
+/// of faces of which one has no probes stays.
 void remove_pairs_across_air(const Shape& shape, const std::vector<FlatFace>& faces,
                              const std::vector<ThicknessProbe>& probes, std::vector<ParallelFaces>& pairs);
 

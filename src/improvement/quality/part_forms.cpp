@@ -56,12 +56,13 @@ PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded, cons
   }
   ThicknessOptions options;
   options.probes = thickness_samples;
+  const std::vector<ThicknessProbe> probes = thickness_probes(shape, options);
   std::vector<std::vector<ThicknessProbe>> of_part(forms_.size());
-  for (const ThicknessProbe& probe : thickness_probes(shape, options))
+  for (const ThicknessProbe& probe : probes)
     of_part[at(shape.triangle_part[at(probe.near_triangle)])].push_back(probe);
   for (std::size_t part = 0; part < forms_.size(); ++part) {
     Form& form = forms_[part];
-    remove_pairs_across_air(shape, form.faces, of_part[part], form.parallel);
+    remove_pairs_across_air(shape, form.faces, probes, form.parallel);
     keep_probes(shape, form, std::move(of_part[part]));
   }
 }
