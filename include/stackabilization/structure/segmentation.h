@@ -21,8 +21,9 @@ enum class SegmentationMethod {
   /// hierarchical fitting of primitives (Attene et al. 2006).
   primitives,
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
-  /// `members` when the shape has several parts. Otherwise `whole` for a net of wires. Otherwise `components`
-  /// when there are several or when the shape is a body of revolution. Otherwise `primitives`.
+  /// `members` when the shape has several parts. Otherwise `whole` for a net of wires. Otherwise, when there
+  /// are several components, these, of which those that one primitive represents badly are cut into members.
+  /// Otherwise `whole` for a body of revolution. Otherwise `primitives`.
   automatic,
 };
 

@@ -227,7 +227,7 @@ void check_areas(const Shape& shape) {
 
 /// Cuts the parts of several members. Member k of "leg" is called "leg.k".
 Shape with_members(const Shape& shape, const SegmentationOptions& options,
-                   const detail::SymmetrySource& symmetries) {
+                   const detail::SymmetrySource& symmetries, const detail::MemberRule& rule = {}) {
   const std::vector<Shape> parts = extract_parts(shape);
   std::vector<std::vector<std::int32_t>> members(parts.size());
   const double diagonal = bounding_diagonal(shape);
@@ -238,8 +238,8 @@ Shape with_members(const Shape& shape, const SegmentationOptions& options,
     else
       for (const CutsBy by : {CutsBy::concave_edges, CutsBy::fitting})
         if (members[p].empty() || !is_cut(members[p]))
-          members[p] =
-              detail::members(parts[p], [&](const Shape& part) { return pieces_of(part, options, by); });
+          members[p] = detail::members(
+              parts[p], [&](const Shape& part) { return pieces_of(part, options, by); }, rule);
   });
   if (std::none_of(members.begin(), members.end(), is_cut)) return shape;
   detail::make_symmetric(parts, symmetry_relations(shape, symmetries()), options.min_part_area, members);
@@ -260,6 +260,16 @@ Shape with_members(const Shape& shape, const SegmentationOptions& options,
   }
   validate(result);
   return result;
+}
+
+/// Cuts the components of several members. Such a file may be one union but for a bar that stands apart.
+Shape with_members_of_components(const Shape& components, const SegmentationOptions& options,
+                                 const detail::SymmetrySource& symmetries) {
+  detail::MemberRule rule;
+  rule.max_members = detail::ConvexRegionRule().max_regions;
+  const Shape members =
+      with_members(detail::with_flat_triangles_at_their_edges(components), options, symmetries, rule);
+  return with_parts_by_area(components, members.triangle_part);
 }
 
 /// Cuts a connected shape where its symmetries let it: what was cut on one side of a plane only, or cut
@@ -299,8 +309,12 @@ Shape detail::segment(const Shape& shape, const SegmentationOptions& options,
   const bool components_do =
       options.method == SegmentationMethod::automatic &&
       (count_of(component) > 1 || (options.parts == 0 && is_body_of_revolution(shape)));
-  if (options.method == SegmentationMethod::components || components_do)
-    return with_parts_by_area(shape, component);
+  if (options.method == SegmentationMethod::components || components_do) {
+    Shape components = with_parts_by_area(shape, component);
+    if (options.method == SegmentationMethod::components || options.parts > 0 || components.part_count() == 1)
+      return components;
+    return with_members_of_components(components, options, symmetries);
+  }
   // A number of parts that is asked for is kept.
   if (count_of(component) == 1 && options.parts == 0) return cut_symmetrically(shape, options, symmetries);
   return cut_components(shape, component, options, CutsBy::concave_edges);

@@ -66,6 +66,22 @@ TEST_CASE("a union of bars is cut along its concave edges into the bars") {
   check_cut_into_boxes(railed_table);
 }
 
+TEST_CASE("a union of bars is cut where another shell stands apart from it, too") {
+  // A chair: four posts, two rails, slats on these and between the posts at the back.
+  std::vector<solids::GridBox> chair{{{0, 0, 0}, {3, 3, 20}},   {{30, 0, 0}, {33, 3, 20}},
+                                     {{0, 40, 0}, {3, 43, 60}}, {{30, 40, 0}, {33, 43, 60}},
+                                     {{1, 3, 14}, {2, 40, 18}}, {{31, 3, 14}, {32, 40, 18}}};
+  for (int k = 0; k < 8; ++k) chair.push_back({{0, 4 + 4 * k, 18}, {33, 7 + 4 * k, 19}});
+  for (int k = 0; k < 4; ++k) chair.push_back({{3, 41, 35 + 6 * k}, {30, 42, 39 + 6 * k}});
+  Shape shape = concatenate(solids::grid_union(chair), solids::box({0, 30, 0}, {22, 32, 2}));
+  shape.part_names = {"whole"};
+  shape.triangle_part.assign(shape.triangle_part.size(), 0);
+  CHECK(segment(shape).part_count() == static_cast<Eigen::Index>(chair.size()) + 1);
+  SegmentationOptions options;
+  options.method = SegmentationMethod::components;
+  CHECK(segment(shape, options).part_count() == 2);
+}
+
 TEST_CASE("the underside of a table belongs to its top, wherever rails surround it") {
   const Shape shape = solids::grid_union(railed_table);
   const detail::SurfaceGraph graph = detail::surface_graph(shape);
