@@ -51,9 +51,10 @@ void add_segmentation_options(CLI::App& command, AnalysisArguments& arguments) {
       {"whole", SegmentationMethod::whole},           {"components", SegmentationMethod::components},
       {"primitives", SegmentationMethod::primitives}, {"shape-diameter", SegmentationMethod::shape_diameter},
       {"automatic", SegmentationMethod::automatic}};
-  add_choice(command, "--segmentation", segmentation.method, methods,
-             "How the mesh is cut into parts (default: automatic: given parts and their members, else components "
-             "and theirs, else primitives; a body of revolution stays whole)");
+  add_choice(
+      command, "--segmentation", segmentation.method, methods,
+      "How the mesh is cut into parts (default: automatic: given parts and their members, else components "
+      "and theirs, else primitives; a body of revolution stays whole)");
   add_count(command,
             {"--segments", "Parts to cut every component into (default: as many as it has)", 1, 1000},
             segmentation.parts);

@@ -184,7 +184,7 @@ class Shares {
         near_attached[seam.other][vertex] += shepard_weight(distance);
     }
     if (reaches.empty()) return;
-    const std::map<int, Eigen::Vector3d> normals = normals_of(reaches.front().carried.carrier);
+    const std::map<int, std::vector<Eigen::Vector3d>> normals = normals_of(reaches.front().carried.carrier);
     for (SeamReach& reach : reaches) {
       take_along(reach, near_carrier, normals, shares);
       trim(reach, near_attached.at(reach.carried.attached), shares);
@@ -209,7 +209,8 @@ class Shares {
   }
 
   /// Finds the vertices of the carrier that a seam takes along.
-  void take_along(SeamReach& reach, const Nearness& nearness, const std::map<int, Eigen::Vector3d>& normals,
+  void take_along(SeamReach& reach, const Nearness& nearness,
+                  const std::map<int, std::vector<Eigen::Vector3d>>& normals,
                   const std::vector<Weights>& shares) const {
     CarriedSeam& seam = reach.carried;
     const Primitive& carrier = smooth_->parts[at(seam.carrier)].primitive;
@@ -217,11 +218,12 @@ class Shares {
         Eigen::Matrix3d::Identity() - held_directions(carrier, seam.point, sliding_ways(carrier, seam.point));
     for (const auto& [vertex, distance] : reach.on_carrier) {
       // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
-      const double lies = 1 - (sliding * normals.at(vertex).stableNormalized()).squaredNorm();
+      double across = 0;
+      for (const Eigen::Vector3d& normal : normals.at(vertex))
+        if (distance > 0) across = std::max(across, (sliding * normal).squaredNorm());
       const double own = shepard_weight(distance) / nearness.at(vertex);
       const double share = share_of(shares[at(vertex)], seam.carrier) * own *
-                           fall_off(distance / reach.around) *
-                           std::lerp(lies, 1.0, fall_off(2 * distance / reach.around));
+                           fall_off(distance / reach.around) * std::max(1 - across, 0.0);
       if (share > 0) seam.around.emplace_back(vertex, share);
     }
   }
@@ -255,13 +257,12 @@ class Shares {
     return found == weights.end() ? 0 : found->second;
   }
 
-  /// Returns the sums of the area vectors of the triangles of a part around its vertices.
-  std::map<int, Eigen::Vector3d> normals_of(int part) const {
-    std::map<int, Eigen::Vector3d> normals;
+  /// Returns the unit normals of the triangles of a part around its vertices.
+  std::map<int, std::vector<Eigen::Vector3d>> normals_of(int part) const {
+    std::map<int, std::vector<Eigen::Vector3d>> normals;
     for (const Eigen::Index t : triangles_[at(part)])
       for (int k = 0; k < 3; ++k)
-        normals.try_emplace(shape_.triangles(t, k), Eigen::Vector3d::Zero()).first->second +=
-            area_vector(shape_, t);
+        normals[shape_.triangles(t, k)].push_back(area_vector(shape_, t).stableNormalized());
     return normals;
   }
 
