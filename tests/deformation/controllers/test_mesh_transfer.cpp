@@ -205,6 +205,30 @@ TEST_CASE("in smooth designs two halves that meet end to end own their border to
   CHECK(weight_of(both.bound_points(2 * steps)[0]) == 0.5);
 }
 
+TEST_CASE("in smooth designs the smaller of two parts that meet end to end follows the larger one") {
+  StructuredShape rest = sheet();
+  Shape& shape = rest.shape;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    if (shape.corner(t, 0).x() >= 1 && shape.corner(t, 1).x() >= 1 && shape.corner(t, 2).x() >= 1)
+      shape.triangle_part[static_cast<std::size_t>(t)] = 2;
+  shape.part_names.push_back("far");
+  rest.structure.parts[1].primitive =
+      cuboid_of({{0.5, 0.5, 0}, Eigen::Matrix3d::Identity(), {0.5, 0.5, 0.5}});
+  rest.structure.parts.push_back(
+      {"far", cuboid_of({{2.5, 0.5, 0}, Eigen::Matrix3d::Identity(), {1.5, 0.5, 0.5}}), {}});
+  const Rig rig(rest.structure);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  auto& corners = std::get<Cuboid>(now[1]).corners;
+  corners.col(1).array() = 0.5 + 1.5 * (corners.col(1).array() - 0.5);
+  const Points widened = MeshTransfer(shape, rig, Following::smooth).vertices(rig, now);
+  for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
+    const double x = shape.vertices(v, 0), y = shape.vertices(v, 1);
+    const bool is_within = x > 0.125 && x < 0.875;
+    if (x <= 0 || x >= 1 || is_within)
+      CHECK(widened(v, 1) - 0.5 == Approx((is_within ? 1.5 : 1) * (y - 0.5)));
+  }
+}
+
 TEST_CASE("a seam that slides takes the surface of its carrier along, by a smooth step along the edges") {
   const StructuredShape rest = post_and_rail();
   const Rig rig(rest.structure);
