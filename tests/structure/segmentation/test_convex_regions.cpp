@@ -82,6 +82,24 @@ TEST_CASE("a union of bars is cut where another shell stands apart from it, too"
   CHECK(segment(shape, options).part_count() == 2);
 }
 
+TEST_CASE("a shell without area far from the rest is no part") {
+  const Shape one = solids::box({0, 0, 0}, {1, 2, 3}),
+              union_of_bars = solids::grid_union({{{0, 8, 10}, {40, 11, 13}}, {{18, 0, 7}, {22, 20, 10}}});
+  for (const Shape& solid : {one, union_of_bars}) {
+    Shape flat;
+    flat.vertices.resize(3, 3);
+    flat.vertices << 50, 50, 50, 51, 51, 51, 52, 52, 52;
+    flat.triangles.resize(1, 3);
+    flat.triangles << 0, 1, 2;
+    flat.triangle_part = {0};
+    flat.part_names = {"flat"};
+    Shape shape = concatenate(solid, flat);
+    shape.part_names = {"whole"};
+    shape.triangle_part.assign(shape.triangle_part.size(), 0);
+    CHECK(segment(shape).part_count() == solid.part_count());
+  }
+}
+
 TEST_CASE("the underside of a table belongs to its top, wherever rails surround it") {
   const Shape shape = solids::grid_union(railed_table);
   const detail::SurfaceGraph graph = detail::surface_graph(shape);
