@@ -219,8 +219,9 @@ class Shares {
     for (const auto& [vertex, distance] : reach.on_carrier) {
       // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
       double across = 0;
-      for (const Eigen::Vector3d& normal : normals.at(vertex))
-        if (distance > 0) across = std::max(across, (sliding * normal).squaredNorm());
+      if (distance > 0)
+        for (const Eigen::Vector3d& normal : normals.at(vertex))
+          across = std::max(across, (sliding * normal).squaredNorm());
       const double own = shepard_weight(distance) / nearness.at(vertex);
       const double share = share_of(shares[at(vertex)], seam.carrier) * own *
                            fall_off(distance / reach.around) * std::max(1 - across, 0.0);

@@ -16,7 +16,7 @@ namespace {
 constexpr double upright_axis = 0.9;
 /// Least share of the surface in the body.
 constexpr double body_share = 0.5;
-/// Least height of a handle above the ground, fraction of that of the object.
+/// Height from which on a part is off the ground, fraction of that of the object.
 constexpr double off_ground = 0.02;
 /// Least number of legs of an object: one or two uprights are a post, or the sides of a shelf.
 constexpr std::size_t min_legs = 3;

@@ -17,7 +17,7 @@ struct FlatFace {
   std::vector<double> sides;            ///< per triangle, 1 if it faces as the first one, else -1
   std::vector<Eigen::Index> vertices;   ///< different corners, rows of Shape::vertices
   double area = 0;                      ///< model units squared
-  double width = 0;                     ///< area by length, model units
+  double width = 0;                     ///< area by the diagonal of its box, model units
   double deviation = 0;                 ///< distance of a corner from the plane at rest, model units
 
   /// Returns the sum of the vector areas of the triangles on `shape`, all facing as the first one at rest,

@@ -23,7 +23,7 @@ struct ConvexRegionRule {
   int max_regions = 64;
 };
 
-/// Returns whether an edge bends inwards by `min_bend` of the rule or more.
+/// Returns whether any edge bends inwards by `min_bend` of the rule or more.
 bool has_sharp_concave_edges(const SurfaceGraph& graph, const ConvexRegionRule& rule = {});
 
 /// Returns the region of every triangle, from 0: what sharp concave edges bound all around (the minima rule,

@@ -200,12 +200,7 @@ class SmallSegmentMerger {
     while (!lesser_.empty()) {
       const std::size_t piece = lesser_.begin()->second;
       lesser_.erase(lesser_.begin());
-      const std::map<std::size_t, double>& neighbours = ties_[piece];
-      if (neighbours.empty()) continue;
-      std::size_t host = neighbours.begin()->first;
-      for (const auto& [n, tie] : neighbours)
-        if (tie > neighbours.at(host)) host = n;
-      join(piece, host);
+      if (const std::size_t host = host_of(piece); host != piece) join(piece, host);
     }
     std::vector<std::int32_t> part(count_);
     std::int32_t next = 0;
@@ -217,6 +212,15 @@ class SmallSegmentMerger {
   }
 
  private:
+  /// Returns the piece that a lesser one joins: the neighbour with the strongest link or, for one without
+  /// neighbours and area, the largest of all; itself where there is none.
+  std::size_t host_of(std::size_t piece) {
+    const auto smaller = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const std::map<std::size_t, double>& neighbours = ties_[piece];
+    if (!neighbours.empty()) return std::max_element(neighbours.begin(), neighbours.end(), smaller)->first;
+    if (area_[piece] > 0) return piece;
+    return std::max_element(area_.begin(), area_.end(), smaller)->first;
+  }
   bool is_lesser(std::size_t piece) {
     return !main_.count(piece) || !(area_[piece] > 0) || area_[piece] < min_area_;
   }

@@ -20,9 +20,10 @@ double cutting_cost(const SurfaceLink& link);
 std::vector<std::int32_t> with_smooth_boundaries(const SurfaceGraph& graph, std::vector<std::int32_t> part,
                                                  const std::vector<char>& fixed);
 
-/// Merges small segments: every part of the result is connected and has at least the area `min_area`
-/// (model units squared). A smaller piece joins the neighbour with the strongest link to it; the smallest
-/// piece is merged first. Parts are renumbered in the order of their first triangles.
+/// Merges small segments: every part of the result that has neighbours is connected and has at least the area
+/// `min_area` (model units squared). A smaller piece joins the neighbour with the strongest link to it; the
+/// smallest piece is merged first. A piece without area and neighbours, such as a shell of one flat triangle,
+/// joins the largest piece. Parts are renumbered in the order of their first triangles.
 std::vector<std::int32_t> merge_small_segments(const SurfaceGraph& graph,
                                                const std::vector<std::int32_t>& part, double min_area);
 

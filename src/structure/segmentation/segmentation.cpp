@@ -8,9 +8,7 @@
 #include <numeric>
 
 #include "core/bounding_diagonal.h"
-#include "core/disjoint_sets.h"
 #include "core/extract_parts.h"
-#include "core/index.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
@@ -149,23 +147,7 @@ class ComponentCutter {
   /// Returns clusters with boundaries along concave edges, and none smaller than a part may be.
   std::vector<std::int32_t> tidied(const detail::SurfaceGraph& graph, std::vector<std::int32_t> part) const {
     part = detail::with_smooth_boundaries(graph, std::move(part), {});
-    return with_flat_shells(graph, detail::merge_small_segments(graph, part, min_area_));
-  }
-
-  /// Gives clusters without area, such as a shell of one flat triangle, which touch no other, to the largest.
-  static std::vector<std::int32_t> with_flat_shells(const detail::SurfaceGraph& graph,
-                                                    std::vector<std::int32_t> part) {
-    std::vector<double> areas(detail::at(count_of(part)), 0);
-    for (std::size_t t = 0; t < part.size(); ++t)
-      areas[detail::at(part[t])] += graph.areas(static_cast<Eigen::Index>(t));
-    const auto largest =
-        static_cast<std::size_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
-    DisjointSets sets(areas.size());
-    for (std::size_t piece = 0; piece < areas.size(); ++piece)
-      if (!(areas[piece] > 0)) sets.join(piece, largest);
-    const std::vector<std::int32_t> numbers = sets.numbers();
-    for (std::int32_t& piece : part) piece = numbers[detail::at(piece)];
-    return part;
+    return detail::merge_small_segments(graph, part, min_area_);
   }
 
   /// Returns the clusters that fit primitives: so many if a number is given.
