@@ -400,6 +400,30 @@ TEST_CASE("Opposite walls of a crate may lean, the two sides of a wall may not",
         Approx(degrees - unseen * 180 / std::numbers::pi));
 }
 
+TEST_CASE("Two soles of a part in one plane stay parallel, whatever is opposite", "[quality]") {
+  Shape bridge =
+      solids::grid_union({{{0, 0, 0}, {6, 10, 8}}, {{14, 0, 0}, {20, 10, 8}}, {{0, 0, 8}, {20, 10, 10}}});
+  bridge.part_names = {"bridge"};
+  bridge.triangle_part.assign(bridge.triangle_part.size(), 0);
+  AnalysisOptions options;
+  options.segmentation.method = SegmentationMethod::given;
+  // The upper side slopes, so that no face is parallel to the soles.
+  const StructuredShape rest =
+      analyse_structure(mapped(bridge,
+                               [](const Eigen::Vector3d& p) {
+                                 return Eigen::Vector3d(p.x(), p.y(), p.z() + (p.z() >= 8 ? 0.3 * p.x() : 0));
+                               }),
+                        options);
+  const double degrees = 5, slope = std::tan(degrees * std::numbers::pi / 180);
+  const Shape tilted = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), p.x() >= 14 && p.z() == 0 ? slope * (p.x() - 14) : p.z());
+  });
+  // A thousandth of the diagonal across the soles of 10 x 6 is not seen.
+  const double unseen = 0.001 * std::sqrt(20 * 20 + 10 * 10 + 16 * 16) / (60 / std::sqrt(10 * 10 + 6 * 6));
+  CHECK(measured(rest, tilted, QualityMeasure::parallelism) ==
+        Approx(degrees - unseen * 180 / std::numbers::pi));
+}
+
 TEST_CASE("A wedge has the angle between its faces, and a dent is no plane", "[quality]") {
   const StructuredShape rest = plate();
   const double degrees = 5, slope = std::tan(degrees * std::numbers::pi / 180);
